@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+// Null-collision tracking through grid media over the majorant hierarchy: coarse cells (4^3 bricks) whose maximum
+// is 0 are skipped whole, bricks of 8^3 voxels carry the majorant. A walk can stop anywhere and go on later.
+//
+//   kWalkCollide  kWeighted: every tentative collision is weighted by T * sigma_t / majorant, one is kept by
+//                 reservoir; transmittance is ratio tracking's. With one grid medium only.
+//                 Otherwise delta tracking: the nearest real collision over all media (they may overlap: the
+//                 nearest of independent Poisson processes is a collision of their sum).
+//   kWalkTransmit ratio tracking: the product of 1 - sigma_t / majorant over all media [Novak14, section 3].
+//   kWalkEmit     no collisions: a point on the segment, chosen in proportion to the emission grid's cell maxima.
+#ifndef TYNDALL_TRACKER_WALK_GLSL
+#define TYNDALL_TRACKER_WALK_GLSL
+
+#include "medium/atlas.glsl"
+#include "medium/shape.glsl"
+
+const uint kWalkCollide = 0u;
+const uint kWalkTransmit = 1u;
+const uint kWalkEmit = 2u;
+
+// Russian roulette begins below this transmittance; survivors go on with it.
+const float kRouletteTransmittance = 0.1;
+
+struct WalkCounts {
+  uint lookups;
+  uint exceeded;
+  uint stepsLeft;
+};
+
+Walk walkBegin(vec3 origin, vec3 direction, float tMax, uint mode, uint firstMedium) {
+  Walk walk;
+  walk.origin = origin;
+  walk.direction = direction;
+  walk.tMax = tMax;
+  walk.mode = mode;
+  walk.medium = firstMedium;
+  walk.entered = 0u;
+  walk.brick = ivec3(0);
+  walk.t = 0.0;
+  walk.tEnd = 0.0;
+  walk.tau = 0.0;
+  walk.voxelOrigin = vec3(0.0);
+  walk.voxelDirection = vec3(0.0);
+  walk.transmittance = 1.0;
+  walk.weightSum = 0.0;
+  walk.tHit = -1.0;
+  walk.hitMedium = firstMedium;
+  return walk;
+}
+
+float opticalDepthDraw(inout Rng rng) {
+  const float xi = rngFloat(rng);
+  return kPlantedBug == kBugPlainLog ? -log(1.0 - xi) : -log1pAccurate(-xi);
+}
+
+// Clips the segment to the grid and finds its first brick; false: it misses.
+bool walkEnter(inout Walk walk, Grid grid, inout Rng rng) {
+  walk.voxelOrigin = grid.voxelFromWorld * vec4(walk.origin, 1.0);
+  walk.voxelDirection = mat3(grid.voxelFromWorld) * walk.direction;
+  const vec2 interval = boxInterval(walk.voxelOrigin, walk.voxelDirection, grid.boundsMin, grid.boundsMax, walk.tMax);
+  if (interval.x >= interval.y) {
+    return false;
+  }
+  walk.t = interval.x;
+  walk.tEnd = interval.y;
+  const vec3 point = walk.voxelOrigin + walk.t * walk.voxelDirection;
+  walk.brick = clamp(ivec3(floor(point / float(kBrickEdge))), ivec3(0), grid.brickCount - 1);
+  walk.tau = opticalDepthDraw(rng);
+  walk.entered = 1u;
+  return true;
+}
+
+// Distances at which the ray leaves a cell of `edge` voxels per axis; kInfiniteDistance along axes it does not move on.
+vec3 cellExits(Walk walk, ivec3 cell, int edge) {
+  const vec3 planes = vec3((cell + ivec3(greaterThan(walk.voxelDirection, vec3(0.0)))) * edge);
+  const vec3 exits = (planes - walk.voxelOrigin) / walk.voxelDirection;
+  return mix(exits, vec3(kInfiniteDistance), equal(walk.voxelDirection, vec3(0.0)));
+}
+
+ivec3 exitStep(vec3 exits, vec3 direction) {
+  if (exits.x <= exits.y && exits.x <= exits.z) {
+    return ivec3(direction.x > 0.0 ? 1 : -1, 0, 0);
+  }
+  return exits.y <= exits.z ? ivec3(0, direction.y > 0.0 ? 1 : -1, 0) : ivec3(0, 0, direction.z > 0.0 ? 1 : -1);
+}
+
+// Steps over an empty coarse cell. The axis of exit moves by integers, so the walk cannot stall on a plane; the
+// others are held inside the cell that was left.
+void skipCoarse(inout Walk walk, Grid grid, ivec3 coarse) {
+  const vec3 exits = cellExits(walk, coarse, kBrickEdge * kCoarseEdge);
+  const ivec3 step = exitStep(exits, walk.voxelDirection);
+  walk.t = max(walk.t, min(exits.x, min(exits.y, exits.z)));
+  const vec3 point = walk.voxelOrigin + walk.t * walk.voxelDirection;
+  const ivec3 first = coarse * kCoarseEdge;
+  const ivec3 inside = clamp(ivec3(floor(point / float(kBrickEdge))), first, first + kCoarseEdge - 1);
+  const ivec3 leaving = mix(first - 1, first + kCoarseEdge, greaterThan(step, ivec3(0)));
+  walk.brick = mix(inside, leaving, notEqual(step, ivec3(0)));
+}
+
+// One tentative collision in the current brick. Returns true if the walk through this medium ends here.
+bool walkCollide(inout Walk walk, Grid grid, float sigmaScale, float majorant, inout Rng rng, inout WalkCounts counts) {
+  vec3 point = walk.voxelOrigin + walk.t * walk.voxelDirection;
+  if (kPlantedBug == kBugHalfVoxel) {
+    point += 0.5;
+  }
+  const float sigmaT = sigmaScale * gridOneTap(grid, walk.brick, point, rng);
+  ++counts.lookups;
+  counts.exceeded += uint(sigmaT > majorant * 1.00001);
+  const float share = sigmaT / majorant;
+  walk.tau = opticalDepthDraw(rng);
+  if (walk.mode == kWalkCollide) {
+    const float xi = rngFloat(rng);
+    if (!kWeighted) {
+      if (xi < share) {
+        walk.tHit = walk.t;
+        walk.hitMedium = walk.medium;
+        walk.tMax = walk.t;
+        return true;
+      }
+      return false;
+    }
+    const float weight = walk.transmittance * share;
+    walk.weightSum += weight;
+    if (xi * walk.weightSum < weight) {
+      walk.tHit = walk.t;
+      walk.hitMedium = walk.medium;
+    }
+  }
+  walk.transmittance *= max(1.0 - share, 0.0);
+  if (walk.transmittance < kRouletteTransmittance) {
+    const bool survives = rngFloat(rng) * kRouletteTransmittance < walk.transmittance;
+    walk.transmittance = survives ? kRouletteTransmittance : 0.0;
+  }
+  return walk.transmittance == 0.0;
+}
+
+// Keeps one point of the segment with density `maximum` / weightSum.
+void walkEmit(inout Walk walk, float maximum, float tExit, inout Rng rng) {
+  const float length = max(tExit - walk.t, 0.0);
+  const float weight = maximum * length;
+  walk.weightSum += weight;
+  if (rngFloat(rng) * walk.weightSum < weight) {
+    walk.tHit = walk.t + rngFloat(rng) * length;
+    walk.hitMedium = walk.medium;
+    walk.tau = maximum; // kept for the weight: this mode draws no optical depth
+  }
+}
+
+// The medium whose grid is walked has been left: on to the next one.
+void walkLeave(inout Walk walk) {
+  walk.entered = 0u;
+  ++walk.medium;
+}
+
+// One cell, one tentative collision or one step over an empty coarse cell.
+void walkStep(inout Walk walk, Grid grid, float sigmaScale, inout Rng rng, inout WalkCounts counts) {
+  const bool emit = kGridEmission && walk.mode == kWalkEmit;
+  const float maximum = grid.maxima.at[brickIndex(grid, walk.brick)];
+  const vec3 exits = cellExits(walk, walk.brick, kBrickEdge);
+  const float tExit = min(min(exits.x, min(exits.y, exits.z)), walk.tEnd);
+  ivec3 nextBrick = walk.brick + exitStep(exits, walk.voxelDirection);
+  if (maximum > 0.0) {
+    const float majorant = maximum * sigmaScale;
+    const float cellDepth = majorant * max(tExit - walk.t, 0.0);
+    if (emit) {
+      walkEmit(walk, maximum, tExit, rng);
+    } else if (walk.tau < cellDepth) {
+      walk.t += walk.tau / majorant;
+      if (walkCollide(walk, grid, sigmaScale, majorant, rng, counts)) {
+        walkLeave(walk);
+      }
+      return;
+    } else {
+      walk.tau -= cellDepth;
+    }
+    walk.t = max(walk.t, tExit);
+    walk.brick = nextBrick;
+  } else {
+    const ivec3 coarse = walk.brick / kCoarseEdge;
+    if (grid.coarseMaxima.at[coarse.x + grid.coarseCount.x * (coarse.y + grid.coarseCount.y * coarse.z)] > 0.0) {
+      walk.t = max(walk.t, tExit);
+      walk.brick = nextBrick;
+    } else {
+      skipCoarse(walk, grid, coarse);
+    }
+  }
+  if (walk.t >= walk.tEnd || any(lessThan(walk.brick, ivec3(0))) || any(greaterThanEqual(walk.brick, grid.brickCount))) {
+    walkLeave(walk);
+  }
+}
+
+// Walks the current medium's grid until it is left or the steps are used up.
+void walkMedium(inout Walk walk, Grid grid, float sigmaScale, inout Rng rng, inout WalkCounts counts) {
+  if (walk.entered == 0u && !walkEnter(walk, grid, rng)) {
+    walkLeave(walk);
+    return;
+  }
+  [[dont_unroll]] while (walk.entered != 0u && counts.stepsLeft > 0u) {
+    --counts.stepsLeft;
+    walkStep(walk, grid, sigmaScale, rng, counts);
+  }
+}
+
+// Goes on with a walk until it is done (true) or the steps are used up (false).
+bool walkAdvance(inout Walk walk, ScenePtr scene, inout Rng rng, inout WalkCounts counts) {
+  const uint end = walk.mode == kWalkEmit ? walk.hitMedium + 1u : scene.at[0].mediumCount;
+  [[dont_unroll]] while (walk.medium < end && walk.transmittance > 0.0) {
+    if (counts.stepsLeft == 0u) {
+      return false;
+    }
+    --counts.stepsLeft;
+    const uint gridIndex = walk.mode == kWalkEmit ? scene.at[0].media.at[walk.medium].emissionGrid
+                                                  : scene.at[0].media.at[walk.medium].densityGrid;
+    if (gridIndex == kNoGrid) {
+      walkLeave(walk);
+      continue;
+    }
+    Grid grid = scene.at[0].grids.at[gridIndex];
+    walkMedium(walk, grid, scene.at[0].media.at[walk.medium].sigmaT, rng, counts);
+  }
+  return true;
+}
+
+#endif

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gpu/kernel.h"
+
+#include "base/error.h"
+#include "gpu/spirv.h"
+#include "gpu/vulkan_impl.h"
+
+#include <algorithm>
+
+namespace tyndall::gpu {
+namespace {
+
+constexpr std::uint32_t kPushBytes = 128; // what every Vulkan device allows
+
+vk::raii::DescriptorPool makePool(const vk::raii::Device& device) {
+  const vk::DescriptorPoolSize size(vk::DescriptorType::eSampledImage, 3);
+  return {device, {vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, size}};
+}
+
+void bindImages(const vk::raii::Device& device, vk::DescriptorSet set, const AtlasImages& images) {
+  const std::array<const Image3D*, 3> slots{images.uint8, images.half, images.single};
+  for (std::uint32_t binding = 0; binding < slots.size(); ++binding) {
+    if (slots[binding] == nullptr || slots[binding]->empty()) {
+      continue;
+    }
+    const vk::DescriptorImageInfo info({}, *slots[binding]->impl().view, vk::ImageLayout::eShaderReadOnlyOptimal);
+    device.updateDescriptorSets(vk::WriteDescriptorSet(set, binding, 0, vk::DescriptorType::eSampledImage, info), {});
+  }
+}
+
+} // namespace
+
+struct Kernel::Impl {
+  Device::Impl* device = nullptr;
+  vk::raii::DescriptorPool pool{nullptr};
+  vk::raii::DescriptorSet set{nullptr};
+  vk::raii::PipelineLayout layout{nullptr};
+  vk::raii::Pipeline pipeline{nullptr};
+};
+
+Kernel::Kernel(const Device& device, std::span<const std::uint32_t> spirv, std::span<const SpecEntry> spec, const AtlasImages& images)
+    : impl_(std::make_unique<Impl>()), workgroupSize_(readSpirv(spirv).workgroupSize), spirvBytes_(spirv.size_bytes()) {
+  Device::Impl& owner = device.impl();
+  impl_->device = &owner;
+  impl_->pool = makePool(owner.device);
+  impl_->set = std::move(vk::raii::DescriptorSets(owner.device, {*impl_->pool, *owner.atlasLayout}).front());
+  bindImages(owner.device, *impl_->set, images);
+  const vk::PushConstantRange push(vk::ShaderStageFlagBits::eCompute, 0, kPushBytes);
+  impl_->layout = vk::raii::PipelineLayout(owner.device, {{}, *owner.atlasLayout, push});
+
+  std::vector<vk::SpecializationMapEntry> entries;
+  std::vector<std::uint32_t> values;
+  for (const SpecEntry& entry : spec) {
+    entries.emplace_back(entry.id, static_cast<std::uint32_t>(values.size() * 4), 4);
+    values.push_back(entry.bits);
+  }
+  const vk::SpecializationInfo specialization(static_cast<std::uint32_t>(entries.size()), entries.data(), values.size() * 4, values.data());
+  const vk::raii::ShaderModule shader(owner.device, {{}, spirv.size_bytes(), spirv.data()});
+  const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *shader, "main", &specialization);
+  impl_->pipeline = vk::raii::Pipeline(owner.device, owner.cache, vk::ComputePipelineCreateInfo({}, stage, *impl_->layout));
+}
+
+Kernel::Kernel(Kernel&&) noexcept = default;
+Kernel::~Kernel() = default;
+
+void Kernel::runRaw(std::span<const std::byte> push, std::uint32_t invocations) const {
+  const std::uint32_t groups = (invocations + workgroupSize_ - 1) / workgroupSize_;
+  if (groups == 0) {
+    return;
+  }
+  impl_->device->runCommands([&](const vk::raii::CommandBuffer& commands) {
+    commands.bindPipeline(vk::PipelineBindPoint::eCompute, *impl_->pipeline);
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *impl_->layout, 0, *impl_->set, {});
+    commands.pushConstants<std::byte>(*impl_->layout, vk::ShaderStageFlagBits::eCompute, 0,
+                                      vk::ArrayProxy<const std::byte>(static_cast<std::uint32_t>(push.size()), push.data()));
+    commands.dispatch(groups, 1, 1);
+  });
+}
+
+} // namespace tyndall::gpu

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "gpu/buffer.h"
+#include "gpu_scene/atlas.h"
+#include "gpu_scene/lights.h"
+#include "gpu_scene/media.h"
+#include "gpu_scene/volumes.h"
+#include "passes/trace/trace_io.h"
+#include "scene/scene.h"
+
+#include <vector>
+
+namespace tyndall::gpu_scene {
+
+/// What of the scene needs code, buffers or passes. Everything else is left out of the pipelines.
+struct Features {
+  std::uint32_t phaseMask = 0;
+  std::uint32_t formatMask = 0;
+  bool homogeneous = false;
+  bool grids = false;
+  bool gridEmission = false;
+  bool pointLights = false;
+  bool distantDeltas = false;
+  bool distantAreas = false;
+  bool orthographic = false;
+  bool background = false;
+  bool constantBackground = true;    ///< the background needs no samples to be known
+  bool overlapOfGrids = false;       ///< more than one grid medium: delta tracking, see tracker/walk.glsl
+};
+
+/// A scene in device memory. Owns everything; kernels borrow addresses.
+class GpuScene {
+public:
+  /// @throws Error if memory or image limits do not suffice.
+  GpuScene(const gpu::Device& device, const scene::Scene& scene, const VolumeSet& volumes);
+
+  interop::Ptr<interop::Scene> ptr() const { return scene_.ptr(); }
+  gpu::AtlasImages images() const { return atlas_.images(); }
+  const Features& features() const { return features_; }
+  std::uint32_t homogeneousCount() const { return homogeneousCount_; }
+  const std::vector<std::string>& notes() const { return notes_; }
+  /// World-space point that device coordinates are relative to.
+  const glm::dvec3& centre() const { return centre_; }
+  const PackedMedia& packedMedia() const { return packed_; }
+
+private:
+  void uploadGrids(const gpu::Device& device);
+  void uploadLights(const gpu::Device& device, PackedLights& lights);
+
+  glm::dvec3 centre_{0.0};
+  PackedMedia packed_;
+  Atlas atlas_;
+  Features features_;
+  std::uint32_t homogeneousCount_ = 0;
+  std::vector<std::string> notes_;
+  std::vector<gpu::Buffer<interop::Brick>> bricks_;
+  std::vector<gpu::Buffer<float>> maxima_;
+  std::vector<gpu::Buffer<glm::vec3>> vectors_;
+  std::vector<gpu::Buffer<interop::AliasEntry>> cells_;
+  gpu::Buffer<interop::Grid> grids_;
+  gpu::Buffer<interop::Medium> media_;
+  gpu::Buffer<std::uint32_t> emissive_;
+  gpu::Buffer<interop::PointLight> points_;
+  gpu::Buffer<interop::DistantLight> distant_;
+  gpu::Buffer<interop::Scene> scene_;
+};
+
+} // namespace tyndall::gpu_scene

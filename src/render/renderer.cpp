@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/renderer.h"
+
+#include "base/error.h"
+#include "film/checkpoint.h"
+#include "film/merge.h"
+#include "render/coverage.h"
+#include "render/pixel_order.h"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <map>
+
+namespace tyndall::render {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using film::BatchSums;
+using film::Film;
+using film::kBatchSamples;
+
+static_assert(sizeof(interop::PixelSums) == sizeof(BatchSums));
+
+/// Batches after which a pixel that sees nothing but the background is finished: two for each half-buffer.
+constexpr std::uint32_t kBackgroundBatches = 4;
+
+double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+film::Window wholeOr(const film::Window& crop, const glm::uvec2& size) {
+  return crop.pixelCount() > 0 ? crop : film::Window{glm::uvec2(0), size};
+}
+
+class Session {
+public:
+  Session(const gpu::Device& device, const scene::Scene& scene, const gpu_scene::VolumeSet& volumes,
+          const gpu_scene::GpuScene& gpuScene, const RenderOptions& options, RenderReport& report)
+      : scene_(scene), options_(options), report_(report), tracer_(device, gpuScene, options.tracer),
+        device_(device.info().name), film_(startFilm(device)), coverage_(mediaCoverage(scene, volumes)), order_(dispatchOrder(film_.window())) {
+    report_.mediaPixels = static_cast<std::size_t>(std::count_if(order_.begin(), order_.end(), [&](std::uint32_t pixel) { return covered(pixel); }));
+    report_.backgroundPixels = order_.size() - report_.mediaPixels;
+    report_.spec = tracer_.spec();
+    report_.kernelBytes = tracer_.kernelBytes();
+  }
+
+  Film run() {
+    Schedule schedule(options_.stop, film_);
+    while (const std::optional<std::uint32_t> batch = schedule.next(film_)) {
+      runBatch(*batch, schedule.batchSamples(*batch));
+      schedule.note(film_);
+      if (!report_.stoppedBy.empty()) {
+        break;
+      }
+      error_ = film::estimateError(film_).relative;
+    }
+    if (report_.stoppedBy.empty()) {
+      report_.stoppedBy = schedule.reason();
+    }
+    schedule.note(film_);
+    noteProvenance();
+    saveCheckpoint();
+    report_.totals = tracer_.totals();
+    report_.seconds = secondsSince(start_);
+    return std::move(film_);
+  }
+
+private:
+  Film startFilm(const gpu::Device& device) const {
+    Film film(scene_.film.size, wholeOr(options_.crop, scene_.film.size));
+    film.independentHalves = options_.stop.error.has_value();
+    film::setProvenance(film, {options_.sceneHash, device_, options_.seed, 0, 0});
+    film.metadata["driver"] = device.info().driver;
+    film.metadata["version"] = TYNDALL_VERSION;
+    if (!options_.resume || options_.checkpoint.empty() || !std::filesystem::exists(options_.checkpoint)) {
+      return film;
+    }
+    Film saved = film::loadCheckpoint(options_.checkpoint);
+    const std::string path = options_.checkpoint.string();
+    for (const char* key : {film::kSceneHashKey, film::kSeedKey}) {
+      if (saved.metadata[key] != film.metadata[key]) {
+        fail("{}: the checkpoint belongs to another render ({} differs); delete it, or render without --resume", path, key);
+      }
+    }
+    if (saved.imageSize() != film.imageSize() || !(saved.window() == film.window()) || saved.independentHalves != film.independentHalves) {
+      fail("{}: the checkpoint has another size, crop or kind of stopping; delete it, or render without --resume", path);
+    }
+    return saved;
+  }
+
+  bool covered(std::uint32_t pixel) const { return coverage_[(pixel & 0xffffu) + std::size_t(scene_.film.size.x) * (pixel >> 16)]; }
+
+  std::size_t filmIndex(std::uint32_t pixel) const {
+    const glm::uvec2 offset = glm::uvec2(pixel & 0xffffu, pixel >> 16) - film_.window().min;
+    return offset.x + std::size_t(film_.window().extent().x) * offset.y;
+  }
+
+  /// Samples of batch `batch` that the pixel has already.
+  std::uint32_t samplesInBatch(std::uint32_t pixel, std::uint32_t batch) const {
+    const std::uint32_t before = (batch / 2) * kBatchSamples;
+    const std::uint32_t have = film_.pixels()[filmIndex(pixel)].samples[batch % 2];
+    return have <= before ? 0 : have - before;
+  }
+
+  /// Runs what is missing of a batch, pixel by pixel: nothing for those that an interrupted run has finished.
+  void runBatch(std::uint32_t batch, std::uint32_t count) {
+    std::map<std::uint32_t, std::vector<std::uint32_t>> pixelsByProgress;
+    for (const std::uint32_t pixel : order_) {
+      if (!covered(pixel) && batch >= kBackgroundBatches) {
+        continue;
+      }
+      if (const std::uint32_t have = samplesInBatch(pixel, batch); have < count) {
+        pixelsByProgress[have].push_back(pixel);
+      }
+    }
+    for (const auto& [have, pixels] : pixelsByProgress) {
+      runPixels(pixels, batch, {batch * kBatchSamples + have, count - have});
+    }
+  }
+
+  void runPixels(const std::vector<std::uint32_t>& pixels, std::uint32_t batch, SampleRange samples) {
+    for (std::size_t first = 0; first < pixels.size() && report_.stoppedBy.empty(); first += tracer_.chunkPixels()) {
+      const std::size_t count = std::min<std::size_t>(tracer_.chunkPixels(), pixels.size() - first);
+      const std::span<const std::uint32_t> chunk(pixels.data() + first, count);
+      const std::span<const interop::PixelSums> sums = tracer_.run(chunk, samples, options_.seed);
+      if (report_.firstDispatchSeconds == 0.0) {
+        report_.firstDispatchSeconds = secondsSince(start_);
+      }
+      for (std::size_t i = 0; i < count; ++i) {
+        film_.add(filmIndex(chunk[i]), batch, samples.count, toBatchSums(sums[i]));
+      }
+      afterChunk(batch, double(first + count) / double(pixels.size()));
+    }
+  }
+
+  BatchSums toBatchSums(const interop::PixelSums& device) const {
+    BatchSums sums;
+    std::copy(std::begin(device.moments), std::end(device.moments), sums.moments.begin());
+    std::copy(std::begin(device.extras), std::end(device.extras), sums.extras.begin());
+    if (!scene_.film.transparent) {
+      for (std::size_t channel = 0; channel < 3; ++channel) {
+        sums.moments[channel] += sums.extras[film::BackgroundR + channel];
+      }
+    }
+    return sums;
+  }
+
+  void afterChunk(std::uint32_t batch, double done) {
+    const double seconds = secondsSince(start_);
+    const double batches = std::max(1.0, double(options_.stop.samples) / kBatchSamples);
+    Progress progress;
+    progress.fraction = std::min(1.0, (batch + done) / batches);
+    if (options_.stop.seconds) {
+      progress.fraction = std::clamp(seconds / *options_.stop.seconds, progress.fraction, 1.0);
+    }
+    progress.samples = tracer_.totals().samples;
+    progress.samplesPerPixel = std::min<double>(options_.stop.samples, (batch + done) * kBatchSamples);
+    progress.seconds = seconds;
+    progress.error = error_;
+    progress.nonFinite = tracer_.totals().nonFinite;
+    if (options_.progress) {
+      options_.progress(progress);
+    }
+    if (options_.interrupted != nullptr && *options_.interrupted) {
+      report_.stoppedBy = "interrupt";
+    } else if (options_.stop.seconds && seconds >= *options_.stop.seconds && (batch > 0 || done >= 1.0)) {
+      report_.stoppedBy = "time"; // but every pixel gets its first batch
+    }
+    if (seconds - lastCheckpoint_ >= options_.checkpointSeconds) {
+      saveCheckpoint();
+    }
+  }
+
+  void noteProvenance() {
+    std::uint32_t end = 0;
+    for (const film::PixelState& pixel : film_.pixels()) {
+      end = std::max(end, pixel.samples[0] + pixel.samples[1]);
+    }
+    film::setProvenance(film_, {options_.sceneHash, device_, options_.seed, 0, end});
+  }
+
+  void saveCheckpoint() {
+    lastCheckpoint_ = secondsSince(start_);
+    if (!options_.checkpoint.empty()) {
+      film::saveCheckpoint(options_.checkpoint, film_, {});
+    }
+  }
+
+  const scene::Scene& scene_;
+  const RenderOptions& options_;
+  RenderReport& report_;
+  Clock::time_point start_ = Clock::now();
+  Tracer tracer_;
+  std::string device_;
+  Film film_;
+  std::vector<bool> coverage_;
+  std::vector<std::uint32_t> order_;
+  double error_ = std::numeric_limits<double>::infinity();
+  double lastCheckpoint_ = 0.0;
+};
+
+} // namespace
+
+Film renderFilm(const gpu::Device& device, const scene::Scene& scene, const gpu_scene::VolumeSet& volumes,
+                const gpu_scene::GpuScene& gpuScene, const RenderOptions& options, RenderReport& report) {
+  return Session(device, scene, volumes, gpuScene, options, report).run();
+}
+
+} // namespace tyndall::render

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace tyndall::scene {
+
+/// A file that a scene names.
+struct FileReference {
+  std::filesystem::path path;  ///< absolute, or relative to the working folder
+  std::string problem;         ///< empty if it can be read; else what is wrong and the fix
+};
+
+/// Resolves a file name against `folder` and checks that it is there. A name with frame digits left open
+/// (`smoke_####.vdb`, `smoke_%04d.vdb`) needs only its folder.
+FileReference resolveFile(const std::string& name, const std::filesystem::path& folder);
+
+/// `file` as it should be written into a scene file in `folder`.
+std::string relativeName(const std::string& file, const std::filesystem::path& folder);
+
+} // namespace tyndall::scene

@@ -1,0 +1,394 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/reader.h"
+
+#include "base/error.h"
+#include "scene/file_reference.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tyndall::scene {
+namespace {
+
+bool within(const Range& range, double number) {
+  return number <= range.max && (range.openMin ? number > range.min : number >= range.min);
+}
+
+bool isWhole(const json::Value& value, const WholeRange& range) {
+  return value.kind == json::Kind::Number && std::trunc(value.number) == value.number &&
+         value.number >= double(range.min) && value.number <= double(range.max);
+}
+
+/// Already reported as text that cannot be read: nothing more is said about it.
+bool malformed(const json::Value& value) {
+  return value.kind == json::Kind::Invalid || std::any_of(value.items.begin(), value.items.end(), malformed);
+}
+
+/// "\"a\", \"b\" or \"c\"".
+std::string alternatives(std::span<const std::string_view> words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    text += i == 0 ? "" : i + 1 == words.size() ? " or " : ", ";
+    text += json::inQuotes(words[i]);
+  }
+  return text;
+}
+
+/// The determinant of the linear part relative to the product of its columns' lengths: 0 = flat, 1 = orthogonal.
+double relativeDeterminant(const glm::dmat4& matrix) {
+  const glm::dmat3 linear(matrix);
+  const double lengths = glm::length(linear[0]) * glm::length(linear[1]) * glm::length(linear[2]);
+  return lengths > 0.0 ? std::abs(glm::determinant(linear)) / lengths : 0.0;
+}
+
+glm::dmat4 stepMatrix(const TransformStep& step) {
+  glm::dmat4 translation(1.0);
+  translation[3] = glm::dvec4(step.translate, 1.0);
+  // Rodrigues: R = cos I + sin [a]x + (1 - cos) a a^T, so that +90 degrees about +z takes +x to +y.
+  const double angle = glm::radians(step.rotate.degrees);
+  const glm::dvec3 a = step.rotate.axis;
+  const glm::dmat3 cross(0.0, a.z, -a.y, -a.z, 0.0, a.x, a.y, -a.x, 0.0);
+  const glm::dmat3 rotation =
+      std::cos(angle) * glm::dmat3(1.0) + std::sin(angle) * cross + (1.0 - std::cos(angle)) * glm::outerProduct(a, a);
+  glm::dmat4 scaling(1.0);
+  for (int axis = 0; axis < 3; ++axis) {
+    scaling[axis][axis] = step.scale[axis];
+  }
+  return translation * glm::dmat4(rotation) * scaling * step.matrix; // one of them differs from the identity
+}
+
+} // namespace
+
+std::string inWords(const Range& range) {
+  const std::string unit = range.unit.empty() ? "" : fmt::format(" ({})", range.unit);
+  if (range.openMin) {
+    return fmt::format("a number above {} and up to {}{}", range.min, range.max, unit);
+  }
+  return fmt::format("a number from {} to {}{}", range.min, range.max, unit);
+}
+
+Reader::Reader(const json::Value& object, std::string path, ReadContext& context)
+    : object_(object), path_(std::move(path)), context_(context) {}
+
+std::string Reader::pathOf(std::string_view key) const {
+  return path_.empty() ? std::string(key) : fmt::format("{}.{}", path_, key);
+}
+
+const json::Value* Reader::take(std::string_view key) {
+  const bool required = std::exchange(required_, false);
+  asked_.push_back({key, active_ ? Use::Read : Use::DoesNotApply, active_ ? "" : when_});
+  if (!active_) {
+    return nullptr;
+  }
+  const json::Value* value = object_.find(key);
+  if (value == nullptr && required) {
+    context_.findings.error(object_.position, pathOf(key),
+                            fmt::format("is missing; add \"{}\" to the object that starts here", key));
+  }
+  return value != nullptr && !malformed(*value) ? value : nullptr;
+}
+
+void Reader::reject(const json::Value& value, std::string_view key, const std::string& needs) {
+  context_.findings.error(value.position, pathOf(key),
+                          fmt::format("must be {}, not {}", needs, json::inWords(value)));
+}
+
+std::optional<std::size_t> Reader::chosen(std::string_view key, std::span<const std::string_view> words) {
+  const json::Value* value = take(key);
+  if (value == nullptr) {
+    return std::nullopt;
+  }
+  const auto found = std::find(words.begin(), words.end(), std::string_view(value->text));
+  if (value->kind == json::Kind::String && found != words.end()) {
+    return static_cast<std::size_t>(found - words.begin());
+  }
+  const std::string nearest = nearestName(value->text, std::vector<std::string>(words.begin(), words.end()));
+  const bool suggest = value->kind == json::Kind::String && !nearest.empty();
+  reject(*value, key, alternatives(words));
+  if (suggest) {
+    context_.findings.amend(fmt::format("; did you mean {}?", json::inQuotes(nearest)));
+  }
+  return std::nullopt;
+}
+
+void Reader::word(std::string_view key, std::string& target, std::span<const std::string_view> words,
+                  std::string_view) {
+  if (const std::optional<std::size_t> index = chosen(key, words)) {
+    target = words[*index];
+  }
+}
+
+void Reader::text(std::string_view key, std::string& target, std::string_view) {
+  const bool required = required_;
+  const json::Value* value = take(key);
+  if (value == nullptr) {
+    return;
+  }
+  if (value->kind != json::Kind::String) {
+    return reject(*value, key, "text in double quotes");
+  }
+  if (required && value->text.empty()) {
+    return reject(*value, key, "a name");
+  }
+  target = value->text;
+}
+
+void Reader::file(std::string_view key, std::string& target, std::string_view) {
+  const json::Value* value = take(key);
+  if (value == nullptr) {
+    return;
+  }
+  if (value->kind != json::Kind::String || value->text.empty()) {
+    return reject(*value, key, "a file name in double quotes");
+  }
+  const bool fromCommandLine = value->position.override >= 0;
+  const FileReference reference = resolveFile(value->text, fromCommandLine ? std::filesystem::path{} : context_.folder);
+  if (!reference.problem.empty()) {
+    context_.findings.error(value->position, pathOf(key), reference.problem);
+  }
+  target = reference.path.string();
+}
+
+void Reader::number(std::string_view key, double& target, const Range& range, std::string_view) {
+  const json::Value* value = take(key);
+  if (value == nullptr) {
+    return;
+  }
+  if (value->kind != json::Kind::Number || !within(range, value->number)) {
+    return reject(*value, key, inWords(range));
+  }
+  target = value->number;
+}
+
+void Reader::whole(std::string_view key, std::uint32_t& target, const WholeRange& range, std::string_view) {
+  const json::Value* value = take(key);
+  if (value == nullptr) {
+    return;
+  }
+  if (!isWhole(*value, range)) {
+    return reject(*value, key, fmt::format("a whole number from {} to {}", range.min, range.max));
+  }
+  target = static_cast<std::uint32_t>(value->number);
+}
+
+void Reader::flag(std::string_view key, bool& target, std::string_view) {
+  const json::Value* value = take(key);
+  if (value == nullptr) {
+    return;
+  }
+  if (value->kind != json::Kind::Boolean) {
+    return reject(*value, key, "true or false");
+  }
+  target = value->boolean;
+}
+
+std::optional<glm::dvec3> Reader::three(const json::Value& value, std::string_view key) {
+  const bool list = value.kind == json::Kind::Array && value.items.size() == 3;
+  if (!list) {
+    reject(value, key, "three numbers, such as [0, 1, 0]");
+    return std::nullopt;
+  }
+  glm::dvec3 result(0.0);
+  for (int i = 0; i < 3; ++i) {
+    const json::Value& item = value.items[static_cast<std::size_t>(i)];
+    if (item.kind != json::Kind::Number) {
+      reject(item, fmt::format("{}.{}", key, i), "a number");
+      return std::nullopt;
+    }
+    result[i] = item.number;
+  }
+  return result;
+}
+
+void Reader::point(std::string_view key, glm::dvec3& target, std::string_view) {
+  const json::Value* value = take(key);
+  const std::optional<glm::dvec3> read = value != nullptr ? three(*value, key) : std::nullopt;
+  if (!read) {
+    return;
+  }
+  constexpr Range kCoordinate{-kLargestLength, kLargestLength, "scene units"};
+  for (int i = 0; i < 3; ++i) {
+    if (!within(kCoordinate, (*read)[i])) {
+      return reject(value->items[static_cast<std::size_t>(i)], fmt::format("{}.{}", key, i), inWords(kCoordinate));
+    }
+  }
+  target = *read;
+}
+
+void Reader::direction(std::string_view key, glm::dvec3& target, std::string_view) {
+  const json::Value* value = take(key);
+  const std::optional<glm::dvec3> read = value != nullptr ? three(*value, key) : std::nullopt;
+  if (!read) {
+    return;
+  }
+  const double largest = std::max({std::abs(read->x), std::abs(read->y), std::abs(read->z)});
+  if (largest == 0.0) {
+    context_.findings.error(value->position, pathOf(key), "is zero; give a direction, such as [0, -1, 0]");
+    return;
+  }
+  // Already of unit length: kept to the last bit, so that a scene written out reads back the same.
+  const bool unit = std::abs(glm::dot(*read, *read) - 1.0) < 1e-14;
+  target = unit ? *read : glm::normalize(*read / largest);
+}
+
+void Reader::triple(std::string_view key, glm::dvec3& target, const Range& range, std::string_view) {
+  const json::Value* value = take(key);
+  if (value == nullptr) {
+    return;
+  }
+  const std::string needs = inWords(range) + ", or a list of three";
+  if (value->kind == json::Kind::Number) {
+    return within(range, value->number) ? void(target = glm::dvec3(value->number)) : reject(*value, key, needs);
+  }
+  if (value->kind != json::Kind::Array || value->items.size() != 3) {
+    return reject(*value, key, needs);
+  }
+  const std::optional<glm::dvec3> read = three(*value, key);
+  for (int i = 0; read && i < 3; ++i) {
+    if (!within(range, (*read)[i])) {
+      return reject(value->items[static_cast<std::size_t>(i)], fmt::format("{}.{}", key, i), inWords(range));
+    }
+  }
+  target = read.value_or(target);
+}
+
+void Reader::pair(std::string_view key, glm::uvec2& target, const WholeRange& range, std::string_view) {
+  const json::Value* value = take(key);
+  if (value == nullptr) {
+    return;
+  }
+  const std::vector<json::Value>& items = value->items;
+  if (items.size() != 2 || !isWhole(items[0], range) || !isWhole(items[1], range)) {
+    return reject(*value, key, fmt::format("two whole numbers from {} to {}, such as [640, 480]", range.min, range.max));
+  }
+  target = glm::uvec2(items[0].number, items[1].number);
+}
+
+void Reader::matrix(std::string_view key, glm::dmat4& target, std::string_view) {
+  const json::Value* value = take(key);
+  if (value == nullptr) {
+    return;
+  }
+  const std::vector<json::Value>& items = value->items;
+  const auto isNumber = [](const json::Value& item) {
+    return item.kind == json::Kind::Number && std::abs(item.number) <= kLargestLength;
+  };
+  if (items.size() != 16 || !std::all_of(items.begin(), items.end(), isNumber)) {
+    return reject(*value, key, "16 numbers, row by row, none beyond 1e9");
+  }
+  glm::dmat4 read;
+  for (std::size_t i = 0; i < 16; ++i) {
+    read[static_cast<int>(i % 4)][static_cast<int>(i / 4)] = items[i].number; // GLM: [column][row]
+  }
+  if (glm::transpose(read)[3] != glm::dvec4(0.0, 0.0, 0.0, 1.0)) {
+    context_.findings.error(items[12].position, pathOf(key),
+                            "must end with the row 0, 0, 0, 1: numbers stand row by row, and a translation stands at "
+                            "the end of the first three rows");
+    return;
+  }
+  target = read;
+}
+
+void Reader::transform(std::string_view key, glm::dmat4& worldFromMedium, std::string_view) {
+  const json::Value* value = take(key);
+  if (value == nullptr || !isList(*value, pathOf(key))) {
+    return;
+  }
+  glm::dmat4 composed(1.0);
+  for (std::size_t i = 0; i < value->items.size(); ++i) {
+    const json::Value& item = value->items[i];
+    const std::string path = fmt::format("{}.{}", pathOf(key), i);
+    TransformStep step;
+    readObject(item, path, step);
+    if (context_.findings.errorIn(path)) {
+      continue;
+    }
+    if (item.members.size() != 1) {
+      context_.findings.error(item.position, path, "must have one of translate, rotate, scale or matrix; "
+                                                   "put further steps into objects of their own");
+      continue;
+    }
+    composed = stepMatrix(step) * composed;
+    if (relativeDeterminant(stepMatrix(step)) < 1e-12) {
+      context_.findings.error(item.position, path, "flattens space (it cannot be inverted); no factor may be 0, and "
+                                                   "the rows of a matrix must be independent");
+    }
+  }
+  const double size = std::cbrt(std::abs(glm::determinant(glm::dmat3(composed))));
+  if (!context_.findings.errorIn(pathOf(key)) && !(size > 1e-12 && size < 1e12)) {
+    context_.findings.error(value->position, pathOf(key),
+                            fmt::format("scales by {:.3g} in all; keep it between 1e-12 and 1e12", size));
+  }
+  worldFromMedium = composed;
+}
+
+bool Reader::isList(const json::Value& value, const std::string& path) {
+  if (value.kind == json::Kind::Array) {
+    return true;
+  }
+  context_.findings.error(value.position, path,
+                          fmt::format("must be a list, [ ... ], not {}", json::inWords(value)));
+  return false;
+}
+
+bool Reader::isObject(const json::Value& value, const std::string& path) {
+  if (value.kind == json::Kind::Object) {
+    return true;
+  }
+  context_.findings.error(value.position, path,
+                          fmt::format("must be an object, {{ ... }}, not {}", json::inWords(value)));
+  return false;
+}
+
+void Reader::finish() {
+  if (abandoned_) {
+    return;
+  }
+  for (const json::Member& member : object_.members) {
+    const bool read = std::any_of(asked_.begin(), asked_.end(), [&](const Asked& asked) {
+      return asked.key == member.key && asked.use == Use::Read;
+    });
+    if (!read) {
+      reportUnused(member);
+    }
+  }
+}
+
+void Reader::reportUnused(const json::Member& member) {
+  std::vector<std::string> known;
+  std::vector<std::string> conditions;
+  for (const Asked& asked : asked_) {
+    if (asked.key == member.key) {
+      conditions.push_back(asked.when);
+    } else if (asked.use == Use::Read) {
+      known.emplace_back(asked.key);
+    }
+  }
+  std::string message;
+  if (!conditions.empty()) {
+    message = fmt::format("has no meaning here, only with {}; remove it or change the type", joinNames(conditions));
+  } else if (const std::string nearest = nearestName(member.key, known); !nearest.empty()) {
+    message = fmt::format("is not a known key; did you mean \"{}\"?", nearest);
+  } else {
+    std::sort(known.begin(), known.end());
+    message = fmt::format("is not a known key; here stand {}", joinNames(known));
+  }
+  context_.findings.error(member.position, pathOf(member.key), message);
+}
+
+void readRoot(const json::Value& root, ReadContext& context, Scene& scene) {
+  if (root.kind != json::Kind::Object) {
+    context.findings.error(root.position, "",
+                           fmt::format("a scene must be an object, {{ ... }}, not {}", json::inWords(root)));
+    return;
+  }
+  Reader reader(root, "", context);
+  std::string schema;
+  reader.text("$schema", schema, "for editors; not used");
+  fields(reader, scene);
+  reader.finish();
+}
+
+} // namespace tyndall::scene

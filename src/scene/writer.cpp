@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/writer.h"
+
+#include "scene/file_reference.h"
+#include "scene/load.h"
+
+#include <fmt/format.h>
+
+namespace tyndall::scene {
+namespace {
+
+/// The shortest text that reads back to the same double; -0 becomes 0.
+std::string shortest(double number) { return fmt::format("{}", number == 0.0 ? 0.0 : number); }
+
+std::string matrixText(const glm::dmat4& matrix) {
+  std::string text = "[";
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 4; ++column) {
+      text += (row + column == 0 ? "" : ", ") + shortest(matrix[column][row]);
+    }
+  }
+  return text + "]";
+}
+
+} // namespace
+
+Writer::Writer(std::string& out, std::size_t indent, std::optional<std::filesystem::path> folder)
+    : out_(out), indent_(indent), folder_(std::move(folder)) {
+  out_ += '{';
+}
+
+void Writer::put(std::string_view key, const std::string& value) {
+  if (!active_) {
+    return;
+  }
+  out_ += empty_ ? "\n" : ",\n";
+  out_.append(indent_ + 2, ' ');
+  out_ += json::inQuotes(key) + ": " + value;
+  empty_ = false;
+}
+
+void Writer::file(std::string_view key, std::string& target, std::string_view) {
+  if (active_) {
+    put(key, json::inQuotes(folder_ ? relativeName(target, *folder_) : target));
+  }
+}
+
+void Writer::number(std::string_view key, double& target, const Range&, std::string_view) {
+  put(key, shortest(target));
+}
+
+void Writer::whole(std::string_view key, std::uint32_t& target, const WholeRange&, std::string_view) {
+  put(key, fmt::format("{}", target));
+}
+
+void Writer::point(std::string_view key, glm::dvec3& target, std::string_view) {
+  put(key, fmt::format("[{}, {}, {}]", shortest(target.x), shortest(target.y), shortest(target.z)));
+}
+
+void Writer::pair(std::string_view key, glm::uvec2& target, const WholeRange&, std::string_view) {
+  put(key, fmt::format("[{}, {}]", target.x, target.y));
+}
+
+void Writer::matrix(std::string_view key, glm::dmat4& target, std::string_view) { put(key, matrixText(target)); }
+
+void Writer::transform(std::string_view key, glm::dmat4& worldFromMedium, std::string_view) {
+  const bool identity = worldFromMedium == glm::dmat4(1.0);
+  put(key, identity ? "[]" : "[{\"matrix\": " + matrixText(worldFromMedium) + "}]");
+}
+
+void Writer::finish() { out_ += empty_ ? "}" : "\n" + std::string(indent_, ' ') + "}"; }
+
+std::string toJson(const Scene& scene, const std::filesystem::path& folder) {
+  std::string text;
+  Scene visited = scene; // visitors take their targets by reference
+  Writer writer(text, 0, folder.empty() ? std::nullopt : std::optional(folder));
+  fields(writer, visited);
+  writer.finish();
+  return text + '\n';
+}
+
+} // namespace tyndall::scene
