@@ -17,7 +17,7 @@ float henyeyGreensteinDensity(float g, float oneMinusCos) {
   const float h = abs(g);
   const float k = 1.0 - h;
   const float denominator = k * k + 2.0 * h * oneMinusCos;
-  // k (2 - k) = 1 - g^2. Compilers turn (1 - h)(1 + h) back into 1 - h^2, which is 2e-4 off at g = 0.9999.
+  // k (2 - k) = 1 - g^2, which itself would lose four digits at g = 0.9999.
   return kInvFourPi * k * (2.0 - k) / (denominator * sqrt(denominator));
 }
 

@@ -48,10 +48,10 @@ Walk walkBegin(vec3 origin, vec3 direction, float tMax, uint mode, uint firstMed
   return walk;
 }
 
-float opticalDepthDraw(inout Rng rng) {
-  const float xi = rngFloat(rng);
-  return kPlantedBug == kBugPlainLog ? -log(1.0 - xi) : -log1pAccurate(-xi);
-}
+// Optical depth to a collision: the inverse of 1 - exp(-tau) at xi in [0, 1).
+float opticalDepthAt(float xi) { return kPlantedBug == kBugPlainLog ? -log(1.0 - xi) : -log1pAccurate(-xi); }
+
+float opticalDepthDraw(inout Rng rng) { return opticalDepthAt(rngFloat(rng)); }
 
 // Clips the segment to the grid and finds its first brick; false: it misses.
 bool walkEnter(inout Walk walk, Grid grid, inout Rng rng) {
@@ -97,9 +97,11 @@ void skipCoarse(inout Walk walk, Grid grid, ivec3 coarse) {
   walk.brick = mix(inside, leaving, notEqual(step, ivec3(0)));
 }
 
-// One tentative collision in the current brick. Returns true if the walk through this medium ends here.
+// One tentative collision in the current brick, at optical depth tau past its entry. Returns true if the walk through
+// this medium ends here.
 bool walkCollide(inout Walk walk, Grid grid, float sigmaScale, float majorant, inout Rng rng, inout WalkCounts counts) {
-  vec3 point = walk.voxelOrigin + walk.t * walk.voxelDirection;
+  const float t = walk.t + walk.tau / majorant;
+  vec3 point = walk.voxelOrigin + t * walk.voxelDirection;
   if (kPlantedBug == kBugHalfVoxel) {
     point += 0.5;
   }
@@ -107,14 +109,15 @@ bool walkCollide(inout Walk walk, Grid grid, float sigmaScale, float majorant, i
   ++counts.lookups;
   counts.exceeded += uint(sigmaT > majorant * 1.00001);
   const float share = sigmaT / majorant;
-  walk.tau = opticalDepthDraw(rng);
+  // t stays at the brick's entry: in dense bricks a free flight can be smaller than the spacing of floats at t.
+  walk.tau += opticalDepthDraw(rng);
   if (walk.mode == kWalkCollide) {
     const float xi = rngFloat(rng);
     if (!kWeighted) {
       if (xi < share) {
-        walk.tHit = walk.t;
+        walk.tHit = t;
         walk.hitMedium = walk.medium;
-        walk.tMax = walk.t;
+        walk.tMax = t;
         return true;
       }
       return false;
@@ -122,7 +125,7 @@ bool walkCollide(inout Walk walk, Grid grid, float sigmaScale, float majorant, i
     const float weight = walk.transmittance * share;
     walk.weightSum += weight;
     if (xi * walk.weightSum < weight) {
-      walk.tHit = walk.t;
+      walk.tHit = t;
       walk.hitMedium = walk.medium;
     }
   }
@@ -165,7 +168,6 @@ void walkStep(inout Walk walk, Grid grid, float sigmaScale, inout Rng rng, inout
     if (emit) {
       walkEmit(walk, maximum, tExit, rng);
     } else if (walk.tau < cellDepth) {
-      walk.t += walk.tau / majorant;
       if (walkCollide(walk, grid, sigmaScale, majorant, rng, counts)) {
         walkLeave(walk);
       }

@@ -1,57 +1,171 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/commands.h"
+#include "app/device_options.h"
+#include "app/quantities.h"
+#include "app/render_exposure.h"
+#include "app/render_interrupt.h"
+#include "app/render_options.h"
+#include "app/render_picture.h"
+#include "app/render_text.h"
 #include "base/error.h"
-#include "base/file.h"
-#include "film/picture.h"
-#include "film/png.h"
-#include "render/renderer.h"
-#include "scene/load.h"
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <memory>
 
 namespace tyndall::app {
+namespace fs = std::filesystem;
 namespace {
 
-struct RenderArguments {
-  std::string input;
-  std::string output = "out.exr";
-  std::uint32_t samples = 0;
-};
+constexpr double kDefaultMemoryShare = 0.8;
 
-int renderCommand(const RenderArguments& arguments) {
-  const scene::LoadResult loaded = scene::readScene(arguments.input);
-  for (const scene::Problem& problem : loaded.problems) {
-    spdlog::warn("{}", Error(problem.location, problem.message).what());
+/// Bytes that the volumes may take.
+double volumeBudget(const RenderRequest& request, const gpu::Device& device) {
+  const double all = request.memoryBytes.value_or(kDefaultMemoryShare * double(device.info().memoryBytes));
+  const double tracer = render::Tracer::plannedBytes(device, tracerOptions(request));
+  if (all <= tracer) {
+    fail("--memory: rendering alone needs {} on this device; allow more", inBytes(tracer));
   }
-  if (!loaded.ok()) return 1;
-  const scene::Scene& scene = loaded.scene;
-  const gpu::Device device({});
-  const gpu_scene::VolumeSet volumes = gpu_scene::loadVolumes(scene, 4e9);
-  const gpu_scene::GpuScene gpuScene(device, scene, volumes);
-  render::RenderOptions options;
-  options.stop.samples = arguments.samples > 0 ? arguments.samples : scene.render.samples;
-  render::RenderReport report;
-  const film::Film film = render::renderFilm(device, scene, volumes, gpuScene, options, report);
-  const film::Image image = film::makeImage(film, {scene.film.transparent, gpuScene.features().background, {}});
-  film::writeExr(arguments.output, image);
-  const auto png = film::writePng(std::filesystem::path(arguments.output).replace_extension(".png"), image,
-                 {scene.film.exposure, scene.film.view == scene::View::Filmic ? film::View::Filmic : film::View::Standard});
-  fmt::print("{:.2f} s, first {:.2f}, lookups {} segments {} resumed {} nonfinite {} exceeded {} error {} clipped {} media px {} bg {}\n", report.seconds, report.firstDispatchSeconds,
-             report.totals.lookups, report.totals.segments, report.totals.resumed, report.totals.nonFinite, report.totals.majorantExceeded, film::estimateError(film).relative, png.clippedShare, report.mediaPixels, report.backgroundPixels);
-  return 0;
+  return all - tracer;
 }
+
+std::vector<std::optional<int>> framesOf(const RenderRequest& request) {
+  if (!request.frames) {
+    return {std::nullopt};
+  }
+  std::vector<std::optional<int>> frames;
+  for (int frame = request.frames->first; frame <= request.frames->last; ++frame) {
+    frames.emplace_back(frame);
+  }
+  return frames;
+}
+
+/// Renders the pictures of a request, one after the other, on one device.
+class RenderSession {
+public:
+  explicit RenderSession(const RenderRequest& request)
+      : request_(request), interrupted_(catchInterrupts()),
+        device_(deviceOptions(request.device)),
+        budget_(volumeBudget(request, device_)) {
+    timings_.start = watch_.seconds();
+    source_ = readSource(request_, budget_, say());
+    timings_.load = watch_.seconds() - timings_.start;
+    checkCrop();
+  }
+
+  int run() {
+    settleExposure();
+    if (!request_.writeScene.empty()) {
+      const fs::path folder = fs::absolute(request_.writeScene).parent_path();
+      writeText(request_.writeScene, scene::toJson(source_.scene, folder));
+      say()(fmt::format("wrote the scene {}", request_.writeScene.string()));
+    }
+    int exitCode = kDone;
+    for (const std::optional<int>& frame : framesOf(request_)) {
+      Prepared prepared = takeOrPrepare(frame);
+      const int code = renderPicture({request_, device_, interrupted_, say()}, prepared, outputFiles(request_, frame));
+      exitCode = std::max(exitCode, code);
+      if (interrupted_) {
+        break;
+      }
+    }
+    return withValidation(device_, exitCode);
+  }
+
+private:
+  Say say() const {
+    return [quiet = request_.quiet](const std::string& text) {
+      if (!quiet) {
+        fmt::print("{}\n", text);
+      }
+    };
+  }
+
+  void checkCrop() const {
+    const glm::uvec2 size = source_.scene.film.size;
+    if (request_.crop && (request_.crop->max.x > size.x || request_.crop->max.y > size.y)) {
+      fail("--crop: reaches beyond the picture of {}x{} pixels", size.x, size.y);
+    }
+  }
+
+  Prepared prepare(const std::optional<int>& frame) {
+    const Stopwatch load;
+    Prepared prepared{.scene = sceneOfFrame(source_.scene, frame), .volumes = {}, .gpuScene = {}, .timings = timings_};
+    if (source_.volumes && (!frame || frame == source_.exposureFrame)) {
+      prepared.volumes = std::move(*source_.volumes);
+      source_.volumes.reset();
+    } else {
+      prepared.volumes = gpu_scene::loadVolumes(prepared.scene, budget_);
+    }
+    prepared.timings.load += load.seconds();
+    const Stopwatch upload;
+    prepared.gpuScene = std::make_unique<gpu_scene::GpuScene>(device_, prepared.scene, prepared.volumes);
+    prepared.timings.upload = upload.seconds();
+    tellAbout(prepared);
+    return prepared;
+  }
+
+  void tellAbout(const Prepared& prepared) const {
+    for (const std::string& note : prepared.volumes.notes) {
+      say()(note);
+    }
+    for (const std::string& note : prepared.gpuScene->notes()) {
+      say()(note);
+    }
+    say()(fmt::format("device memory: {} of {} allowed, on {}", inBytes(double(device_.allocatedBytes())),
+                      inBytes(budget_), device_.info().name));
+    const std::vector<volume::BrickGrid>& grids = prepared.volumes.grids;
+    const bool empty = std::all_of(grids.begin(), grids.end(), [](const auto& grid) { return grid.empty(); });
+    if (!grids.empty() && empty) {
+      spdlog::warn("{}: the volume is empty; the picture shows what is around it", prepared.scene.media.front().file);
+    }
+  }
+
+  void settleExposure() {
+    if (!source_.chooseExposure) {
+      return;
+    }
+    prepared_ = prepare(source_.exposureFrame);
+    preparedFrame_ = source_.exposureFrame;
+    const Stopwatch watch;
+    source_.scene.film.exposure = chooseExposure(device_, prepared_->scene, *prepared_->gpuScene, tracerOptions(request_));
+    timings_.exposure = watch.seconds();
+    prepared_->timings.exposure = timings_.exposure;
+    say()(fmt::format("exposure {:+.1f} stops (override with --exposure)", source_.scene.film.exposure));
+  }
+
+  Prepared takeOrPrepare(const std::optional<int>& frame) {
+    if (!prepared_ || preparedFrame_ != frame) {
+      return prepare(frame);
+    }
+    Prepared prepared = std::move(*prepared_);
+    prepared_.reset();
+    prepared.scene.film.exposure = source_.scene.film.exposure;
+    return prepared;
+  }
+
+  Stopwatch watch_;
+  const RenderRequest& request_;
+  const std::atomic<bool>& interrupted_;
+  gpu::Device device_;
+  double budget_;
+  Timings timings_;
+  Source source_;
+  std::optional<Prepared> prepared_;      ///< what the exposure was chosen from
+  std::optional<int> preparedFrame_;
+};
 
 } // namespace
 
 void addRenderCommand(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("render", "Render a scene (.json) or a volume (.vdb)");
-  auto arguments = std::make_shared<RenderArguments>();
-  command->add_option("input", arguments->input, "Scene (.json) or volume (.vdb)")->required();
-  command->add_option("-o,--output", arguments->output, "EXR to write; a PNG is written beside it");
-  command->add_option("--spp", arguments->samples, "Samples per pixel");
-  command->callback([arguments, &action] { action = [arguments] { return renderCommand(*arguments); }; });
+  const std::shared_ptr<RenderRequest> request = addRenderOptions(app);
+  app.get_subcommand("render")->callback([request, &action] {
+    action = [request] {
+      settle(*request);
+      return RenderSession(*request).run();
+    };
+  });
 }
 
 } // namespace tyndall::app

@@ -63,7 +63,6 @@ vk::raii::Device makeDevice(const vk::raii::PhysicalDevice& physical, std::uint3
   vk::PhysicalDeviceVulkan12Features v12;
   v12.bufferDeviceAddress = VK_TRUE;
   v12.scalarBlockLayout = VK_TRUE;
-  v12.descriptorBindingPartiallyBound = VK_TRUE;
   v12.pNext = &v13;
   vk::DeviceCreateInfo info({}, queue);
   info.pNext = &v12;
@@ -72,15 +71,10 @@ vk::raii::Device makeDevice(const vk::raii::PhysicalDevice& physical, std::uint3
 
 vk::raii::DescriptorSetLayout makeAtlasLayout(const vk::raii::Device& device) {
   std::array<vk::DescriptorSetLayoutBinding, 3> bindings;
-  std::array<vk::DescriptorBindingFlags, 3> flags;
   for (std::uint32_t i = 0; i < bindings.size(); ++i) {
     bindings[i] = {i, vk::DescriptorType::eSampledImage, 1, vk::ShaderStageFlagBits::eCompute};
-    flags[i] = vk::DescriptorBindingFlagBits::ePartiallyBound;
   }
-  const vk::DescriptorSetLayoutBindingFlagsCreateInfo flagInfo(flags);
-  vk::DescriptorSetLayoutCreateInfo info({}, bindings);
-  info.pNext = &flagInfo;
-  return {device, info};
+  return {device, vk::DescriptorSetLayoutCreateInfo({}, bindings)};
 }
 
 std::vector<char> readCache(const std::filesystem::path& path) {

@@ -64,7 +64,6 @@ std::vector<std::string> missingFeatures(const vk::raii::PhysicalDevice& physica
   };
   need(v12.bufferDeviceAddress, "bufferDeviceAddress");
   need(v12.scalarBlockLayout, "scalarBlockLayout");
-  need(v12.descriptorBindingPartiallyBound, "descriptorBindingPartiallyBound");
   need(v13.synchronization2, "synchronization2");
   need(v13.maintenance4, "maintenance4");
   return missing;

@@ -17,13 +17,26 @@ vk::raii::DescriptorPool makePool(const vk::raii::Device& device) {
   return {device, {vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, size}};
 }
 
-void bindImages(const vk::raii::Device& device, vk::DescriptorSet set, const AtlasImages& images) {
+/// A single texel for each format that the scene lacks: descriptors that are never read must still be bound, partially
+/// bound sets being more than some drivers offer (Mesa 22.3).
+std::array<Image3D, 3> makeStandIns(const Device& device, const AtlasImages& images) {
+  constexpr std::array<std::byte, 4> kBlack{};
+  std::array<Image3D, 3> standIns;
+  const std::array<const Image3D*, 3> slots{images.uint8, images.half, images.single};
+  constexpr std::array kFormats{TexelFormat::Uint8, TexelFormat::Half, TexelFormat::Float};
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    if (slots[i] == nullptr || slots[i]->empty()) {
+      standIns[i] = Image3D(device, glm::uvec3(1), kFormats[i], std::span(kBlack).first(std::size_t{1} << i));
+    }
+  }
+  return standIns;
+}
+
+void bindImages(const vk::raii::Device& device, vk::DescriptorSet set, const AtlasImages& images, const std::array<Image3D, 3>& standIns) {
   const std::array<const Image3D*, 3> slots{images.uint8, images.half, images.single};
   for (std::uint32_t binding = 0; binding < slots.size(); ++binding) {
-    if (slots[binding] == nullptr || slots[binding]->empty()) {
-      continue;
-    }
-    const vk::DescriptorImageInfo info({}, *slots[binding]->impl().view, vk::ImageLayout::eShaderReadOnlyOptimal);
+    const Image3D& image = standIns[binding].empty() ? *slots[binding] : standIns[binding];
+    const vk::DescriptorImageInfo info({}, *image.impl().view, vk::ImageLayout::eShaderReadOnlyOptimal);
     device.updateDescriptorSets(vk::WriteDescriptorSet(set, binding, 0, vk::DescriptorType::eSampledImage, info), {});
   }
 }
@@ -32,6 +45,7 @@ void bindImages(const vk::raii::Device& device, vk::DescriptorSet set, const Atl
 
 struct Kernel::Impl {
   Device::Impl* device = nullptr;
+  std::array<Image3D, 3> standIns;
   vk::raii::DescriptorPool pool{nullptr};
   vk::raii::DescriptorSet set{nullptr};
   vk::raii::PipelineLayout layout{nullptr};
@@ -39,12 +53,17 @@ struct Kernel::Impl {
 };
 
 Kernel::Kernel(const Device& device, std::span<const std::uint32_t> spirv, std::span<const SpecEntry> spec, const AtlasImages& images)
-    : impl_(std::make_unique<Impl>()), workgroupSize_(readSpirv(spirv).workgroupSize), spirvBytes_(spirv.size_bytes()) {
+    : impl_(std::make_unique<Impl>()), spirvBytes_(spirv.size_bytes()) {
+  const SpirvInfo info = readSpirv(spirv);
+  workgroupSize_ = info.workgroupSize;
   Device::Impl& owner = device.impl();
   impl_->device = &owner;
   impl_->pool = makePool(owner.device);
   impl_->set = std::move(vk::raii::DescriptorSets(owner.device, {*impl_->pool, *owner.atlasLayout}).front());
-  bindImages(owner.device, *impl_->set, images);
+  if (info.usesImages) {
+    impl_->standIns = makeStandIns(device, images);
+    bindImages(owner.device, *impl_->set, images, impl_->standIns);
+  }
   const vk::PushConstantRange push(vk::ShaderStageFlagBits::eCompute, 0, kPushBytes);
   impl_->layout = vk::raii::PipelineLayout(owner.device, {{}, *owner.atlasLayout, push});
 

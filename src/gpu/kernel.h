@@ -31,7 +31,7 @@ template <class T> std::uint32_t specBits(T value) {
 }
 
 /// The images every kernel may read, one binding per texel format (shaders/medium/atlas.glsl).
-/// Missing ones are never touched: specialization removes their code.
+/// Missing ones are never read: specialization removes their code.
 struct AtlasImages {
   const Image3D* uint8 = nullptr;
   const Image3D* half = nullptr;

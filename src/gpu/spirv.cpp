@@ -12,8 +12,13 @@ constexpr std::uint32_t kHeaderWords = 5;
 constexpr std::uint32_t kOpName = 5;
 constexpr std::uint32_t kOpMemberName = 6;
 constexpr std::uint32_t kOpExecutionMode = 16;
+constexpr std::uint32_t kOpTypeImage = 25;
+constexpr std::uint32_t kOpConstant = 43;
+constexpr std::uint32_t kOpSpecConstant = 50;
+constexpr std::uint32_t kOpExecutionModeId = 331;
 constexpr std::uint32_t kOpMemberDecorate = 72;
 constexpr std::uint32_t kModeLocalSize = 17;
+constexpr std::uint32_t kModeLocalSizeId = 38;
 constexpr std::uint32_t kDecorationOffset = 35;
 
 std::string literal(std::span<const std::uint32_t> words) {
@@ -44,6 +49,8 @@ SpirvInfo readSpirv(std::span<const std::uint32_t> words) {
   }
   SpirvInfo info;
   std::map<std::uint32_t, std::string> names;
+  std::map<std::uint32_t, std::uint32_t> constants;
+  std::uint32_t workgroupSizeId = 0;
   std::map<std::uint32_t, std::map<std::uint32_t, Member>> structs;
   for (std::size_t i = kHeaderWords; i < words.size();) {
     const std::uint32_t length = words[i] >> 16;
@@ -58,12 +65,21 @@ SpirvInfo readSpirv(std::span<const std::uint32_t> words) {
       structs[operands[0]][operands[1]].name = literal(operands.subspan(2));
     } else if (op == kOpExecutionMode && operands[1] == kModeLocalSize) {
       info.workgroupSize = operands[2];
+    } else if (op == kOpExecutionModeId && operands[1] == kModeLocalSizeId) {
+      workgroupSizeId = operands[2];
+    } else if (op == kOpConstant || op == kOpSpecConstant) {
+      constants[operands[1]] = operands[2];
+    } else if (op == kOpTypeImage) {
+      info.usesImages = true;
     } else if (op == kOpMemberDecorate && operands[2] == kDecorationOffset) {
       Member& member = structs[operands[0]][operands[1]];
       member.offset = operands[3];
       member.placed = true;
     }
     i += length;
+  }
+  if (workgroupSizeId != 0) {
+    info.workgroupSize = constants[workgroupSizeId];
   }
   for (const auto& [id, members] : structs) {
     for (const auto& [index, member] : members) {

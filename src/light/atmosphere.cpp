@@ -4,21 +4,25 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
 namespace tyndall::light {
 namespace {
 
-// [Bruneton17] "Precomputed Atmospheric Scattering: a New Implementation", and [Hillaire20] for ozone.
-const glm::dvec3 kAirScattering{5.802e-3, 13.558e-3, 33.1e-3}; // at sea level [1/km]
-const glm::dvec3 kOzoneAbsorption{0.650e-3, 1.881e-3, 0.085e-3}; // at the layer's peak [1/km]
-constexpr double kAirScaleHeight = 8.0;   // km
-constexpr double kHazeScaleHeight = 1.2;  // km
-constexpr double kHazeAlbedo = 0.9;
-constexpr double kAngstromExponent = 1.3; // haze ~ wavelength^-1.3, [Angstrom29]
-constexpr double kOzoneCentre = 25.0;     // km
-constexpr double kOzoneHalfWidth = 15.0;  // km
+// [Bruneton17] "Precomputed Atmospheric Scattering: a New Implementation", for air and the ozone layer's profile.
+constexpr double kAirAtMicrometre = 1.24062e-3; // scattering at sea level [1/km], times wavelength^-4
+constexpr double kAirScaleHeight = 8.0;         // km
+constexpr double kHazeScaleHeight = 1.2;        // km
+constexpr double kHazeAlbedo = 0.95;            // between continental average and clean, [Hess98] OPAC
+constexpr double kAngstromExponent = 1.3;       // haze ~ wavelength^-1.3, [Angstrom29]
+constexpr double kOzoneCentre = 25.0;           // km
+constexpr double kOzoneHalfWidth = 15.0;        // km
+// Cross-sections at 233 K [m2], means over 20 nm, [Serdyuchenko14]; 300 Dobson units spread over the layer.
+constexpr std::array<double, kSkyWavelengths> kOzoneCrossSection{2.1e-27,  1.95e-26, 8.4e-26,  2.45e-25,
+                                                                 4.47e-25, 4.66e-25, 2.45e-25, 1.08e-25};
+constexpr double kOzonePeak = 300.0 * 2.687e20 / kOzoneHalfWidth; // molecules / (m2 km)
 constexpr double kSunAngularRadius = 0.2665 * std::numbers::pi / 180.0;
 
 // Gauss-Legendre on [0, 1] and the integrals of its Lagrange polynomials from 0 to each node.
@@ -54,20 +58,37 @@ double radiusAlong(double radius, double mu, double distance) {
 } // namespace
 
 Atmosphere::Atmosphere(double turbidity) {
-  const double airDepth = kAirScattering.g * kAirScaleHeight;
-  const double hazeExtinction = (turbidity - 1.0) * airDepth / kHazeScaleHeight;
-  const glm::dvec3 spectrum(std::pow(680.0 / 550.0, -kAngstromExponent), 1.0, std::pow(440.0 / 550.0, -kAngstromExponent));
-  hazeScattering_ = kHazeAlbedo * hazeExtinction * spectrum;
+  const double airDepth = kAirAtMicrometre / std::pow(0.55, 4.0) * kAirScaleHeight;
+  const double hazeAt550 = (turbidity - 1.0) * airDepth / kHazeScaleHeight;
+  for (std::size_t i = 0; i < kSkyWavelengths; ++i) {
+    const double micrometres = skyNanometres(i) * 1e-3;
+    airScattering_[i] = kAirAtMicrometre / std::pow(micrometres, 4.0);
+    hazeExtinction_[i] = hazeAt550 * std::pow(micrometres / 0.55, -kAngstromExponent);
+    hazeScattering_[i] = kHazeAlbedo * hazeExtinction_[i];
+    ozoneAbsorption_[i] = kOzonePeak * kOzoneCrossSection[i];
+  }
   fillTable();
 }
 
-Atmosphere::Coefficients Atmosphere::at(double radius) const {
+glm::dvec3 Atmosphere::densityAt(double radius) {
   const double height = std::max(radius - kGroundRadius, 0.0);
-  const double ozone = std::max(0.0, 1.0 - std::abs(height - kOzoneCentre) / kOzoneHalfWidth);
-  Coefficients result;
-  result.rayleigh = kAirScattering * std::exp(-height / kAirScaleHeight);
-  result.haze = hazeScattering_ * std::exp(-height / kHazeScaleHeight);
-  result.extinction = result.rayleigh + result.haze / kHazeAlbedo + kOzoneAbsorption * ozone;
+  return {std::exp(-height / kAirScaleHeight), std::exp(-height / kHazeScaleHeight),
+          std::max(0.0, 1.0 - std::abs(height - kOzoneCentre) / kOzoneHalfWidth)};
+}
+
+SkySpectrum Atmosphere::extinction(const glm::dvec3& density) const {
+  SkySpectrum result;
+  for (std::size_t i = 0; i < kSkyWavelengths; ++i) {
+    result[i] = density.x * airScattering_[i] + density.y * hazeExtinction_[i] + density.z * ozoneAbsorption_[i];
+  }
+  return result;
+}
+
+SkySpectrum Atmosphere::transmittance(const glm::dvec3& column) const {
+  SkySpectrum result = extinction(column);
+  for (double& value : result.at) {
+    value = std::exp(-value);
+  }
   return result;
 }
 
@@ -85,30 +106,29 @@ bool Atmosphere::hitsGround(double radius, double mu, double& distance) {
   return true;
 }
 
-std::vector<Atmosphere::Node>
-Atmosphere::march(double radius, double mu, double length, int segments, glm::dvec3& total) const {
+std::vector<Atmosphere::Node> Atmosphere::march(double radius, double mu, double length, int segments, glm::dvec3& total) {
   static const Gauss4 gauss;
   std::vector<Node> nodes(static_cast<std::size_t>(segments) * 4);
   total = glm::dvec3(0.0);
-  // distance = length * s^power: long rays begin with fine steps. Every node's depth is spectrally accurate.
-  const double power = std::clamp(1.0 + std::log10(1.0 + length), 1.0, 3.5);
+  // distance = length * s^2 or s^3. Every node's column is spectrally accurate.
+  const bool rising = mu >= 0.0;
   for (int segment = 0; segment < segments; ++segment) {
     Node* node = &nodes[static_cast<std::size_t>(segment) * 4];
     for (std::size_t i = 0; i < 4; ++i) {
       const double s = (segment + gauss.node[i]) / segments;
-      node[i].distance = length * std::pow(s, power);
-      node[i].weight = gauss.weight[i] * length * power * std::pow(s, power - 1.0) / segments;
-      node[i].medium = at(radiusAlong(radius, mu, node[i].distance));
+      node[i].distance = length * s * s * (rising ? s : 1.0);
+      node[i].weight = gauss.weight[i] * length * (rising ? 3.0 * s * s : 2.0 * s) / segments;
+      node[i].density = densityAt(radiusAlong(radius, mu, node[i].distance));
     }
-    glm::dvec3 depth(0.0);
+    glm::dvec3 column(0.0);
     for (std::size_t i = 0; i < 4; ++i) {
-      node[i].opticalDepth = total;
+      node[i].column = total;
       for (std::size_t j = 0; j < 4; ++j) {
-        node[i].opticalDepth += node[j].medium.extinction * (node[j].weight / gauss.weight[j] * gauss.upTo[i][j]);
+        node[i].column += node[j].density * (node[j].weight / gauss.weight[j] * gauss.upTo[i][j]);
       }
-      depth += node[i].medium.extinction * node[i].weight;
+      column += node[i].density * node[i].weight;
     }
-    total += depth;
+    total += column;
   }
   return nodes;
 }
@@ -141,7 +161,7 @@ void Atmosphere::fillTable() {
   });
 }
 
-glm::dvec3 Atmosphere::opticalDepthToTop(double radius, double mu) const {
+glm::dvec3 Atmosphere::columnToTop(double radius, double mu) const {
   const glm::dvec2 place = tableCoordinates(radius, mu) * glm::dvec2(tableSize_ - 1u);
   const glm::uvec2 low = glm::min(glm::uvec2(place), tableSize_ - 2u);
   const glm::dvec2 weight = place - glm::dvec2(low);
@@ -150,18 +170,28 @@ glm::dvec3 Atmosphere::opticalDepthToTop(double radius, double mu) const {
                   glm::mix(row[tableSize_.x], row[tableSize_.x + 1], weight.x), weight.y);
 }
 
-glm::dvec3 Atmosphere::sunTransmittance(double radius, double muSun) const {
-  // The horizon's dip, and how far the disc's centre stands above it, in radii of the disc.
+Atmosphere::SunPath Atmosphere::sunPath(double radius, double muSun) const {
   const double sine = std::clamp(kGroundRadius / radius, 0.0, 1.0);
   const double horizonMu = -std::sqrt(1.0 - sine * sine);
+  // Cosines differ by no more than the angles do: above this the whole disc is up.
+  if (muSun > horizonMu + kSunAngularRadius) {
+    return {1.0, columnToTop(radius, muSun)};
+  }
+  // How far the disc's centre stands above the horizon, in radii of the disc.
   const double elevation = std::asin(std::clamp(muSun, -1.0, 1.0)) - std::asin(horizonMu);
-  const double x = std::clamp(elevation / kSunAngularRadius, -1.0, 1.0);
+  const double x = elevation / kSunAngularRadius;
   if (x <= -1.0) {
-    return glm::dvec3(0.0);
+    return {};
   }
   // Area of a disc above a chord at -x.
-  const double visible = 0.5 + (x * std::sqrt(1.0 - x * x) + std::asin(x)) / std::numbers::pi;
-  return visible * glm::exp(-opticalDepthToTop(radius, std::max(muSun, horizonMu)));
+  const double inside = std::min(x, 1.0);
+  const double visible = 0.5 + (inside * std::sqrt(1.0 - inside * inside) + std::asin(inside)) / std::numbers::pi;
+  return {visible, columnToTop(radius, std::max(muSun, horizonMu))};
+}
+
+SkySpectrum Atmosphere::sunTransmittance(double radius, double muSun) const {
+  const SunPath path = sunPath(radius, muSun);
+  return path.visible > 0.0 ? path.visible * transmittance(path.column) : SkySpectrum{};
 }
 
 } // namespace tyndall::light

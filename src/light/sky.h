@@ -14,11 +14,17 @@ struct SkyMap {
   glm::dvec3 sunTransmittance{0.0};     ///< fraction of the sun's irradiance that reaches the viewer, per channel
 };
 
-/// Single scattering by air and haze in an exponential atmosphere with ozone over a spherical earth, and a Lambertian
-/// ground lit by sun and sky and seen through the air. The viewer stands 200 m above the ground.
+/// The sky of air, haze and ozone with fixed profiles over a spherical earth, and a Lambertian ground lit by sun and
+/// sky and seen through the air. The viewer stands 200 m above the ground. Computed at the wavelengths of
+/// SkySpectrum; channels are linear Rec.709 with white = the sun above the atmosphere, negative ones set to 0.
+/// Single scattering is integrated along each row's rays; all later orders together are the isotropic approximation
+/// of [Hillaire20] (sky_multiple.h). Limits: that light forgets where it came from, so haze brightens the sun's side
+/// too little and the far side too much, by a few per cent of the sky's irradiance for turbidity 3 and more with
+/// more haze or a lower sun; distant ground is lit by the sky as seen from the viewer; no polarisation, refraction,
+/// night sky or clouds.
 /// @param sunDirection the way the sun's light travels; need not be unit. Its irradiance above the atmosphere is 1 in
 /// each channel. The sun may be below the horizon.
-/// @param turbidity 1 (pure air) to 10 (haze). @param size >= 1 x 2.
+/// @param turbidity 1 (pure air) to 10 (haze). @param groundAlbedo 0 to 1. @param size >= 1 x 2.
 SkyMap makeSky(const glm::dvec3& sunDirection, double turbidity, const glm::dvec3& groundAlbedo,
                const glm::uvec2& size);
 

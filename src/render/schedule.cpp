@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 namespace tyndall::render {
 namespace {
@@ -19,14 +20,17 @@ std::string stopKey(int half) { return fmt::format("stop.half{}", half); }
 Schedule::Schedule(const StopRule& rule, const film::Film& film) : rule_(rule) {
   for (int half = 0; half < 2; ++half) {
     const auto entry = film.metadata.find(stopKey(half));
-    stopped_[static_cast<std::size_t>(half)] = rule.error && entry != film.metadata.end() && entry->second == "1";
+    if (rule.error && entry != film.metadata.end()) {
+      stopped_[static_cast<std::size_t>(half)] = true;
+      stoppedBatches_[static_cast<std::size_t>(half)] = static_cast<std::uint32_t>(std::stoul(entry->second));
+    }
   }
 }
 
 void Schedule::note(film::Film& film) const {
   for (int half = 0; half < 2; ++half) {
     if (stopped_[static_cast<std::size_t>(half)]) {
-      film.metadata[stopKey(half)] = "1";
+      film.metadata[stopKey(half)] = std::to_string(stoppedBatches_[static_cast<std::size_t>(half)]);
     }
   }
 }
@@ -63,9 +67,12 @@ void Schedule::decide(const film::Film& film) {
   }
   const std::array<bool, 2> before = stopped_;
   for (int half = 0; half < 2; ++half) {
-    // Only a half that is still running has enough batches to judge; one that has stopped says what it said.
-    if (!before[static_cast<std::size_t>(half)] && film::estimateErrorFromHalf(film, 1 - half).upper <= *rule_.error) {
+    const auto other = static_cast<std::size_t>(1 - half);
+    // A half that has stopped judges by the variance it knows, scaled to the samples that this one has by now.
+    const double scale = before[other] ? std::sqrt(double(stoppedBatches_[other]) / perHalf) : 1.0;
+    if (!before[static_cast<std::size_t>(half)] && scale * film::estimateErrorFromHalf(film, 1 - half).upper <= *rule_.error) {
       stopped_[static_cast<std::size_t>(half)] = true;
+      stoppedBatches_[static_cast<std::size_t>(half)] = perHalf;
     }
   }
 }

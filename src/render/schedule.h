@@ -41,6 +41,7 @@ private:
   StopRule rule_;
   std::uint32_t batch_ = 0;
   std::array<bool, 2> stopped_{};
+  std::array<std::uint32_t, 2> stoppedBatches_{};  ///< batches that a stopped half has
   const char* reason_ = "samples";
 };
 

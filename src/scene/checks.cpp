@@ -20,8 +20,7 @@ json::Position locate(const json::Value& root, std::string_view path) {
     path.remove_prefix(std::min(end + 1, path.size()));
     std::size_t index = 0;
     const bool number = std::from_chars(key.data(), key.data() + key.size(), index).ec == std::errc{};
-    const json::Value* inner =
-        number && index < value->items.size() ? &value->items[index] : value->find(key);
+    const json::Value* inner = number && index < value->items.size() ? &value->items[index] : value->find(key);
     if (inner == nullptr) {
       break;
     }
@@ -81,12 +80,13 @@ private:
 
   void checkDepth() {
     if (!findings_.errorIn("render.depth") && scene_.render.depth != 1) {
-      error("render.depth", fmt::format("is {}, but this version renders one scattering event; set it to 1",
-                                        scene_.render.depth));
+      error("render.depth",
+            fmt::format("is {}, but this version renders one scattering event; set it to 1", scene_.render.depth));
     }
   }
 
-  template <class Items> void checkNames(const std::string& list, const Items& items) {
+  template <class Items>
+  void checkNames(const std::string& list, const Items& items) {
     std::map<std::string, std::size_t> first;
     for (std::size_t i = 0; i < items.size(); ++i) {
       const auto [entry, added] = first.emplace(items[i].name, i);
@@ -103,8 +103,8 @@ private:
     }
     for (int axis = 0; axis < 3; ++axis) {
       if (!(box.min[axis] < box.max[axis])) {
-        error(path + ".max", fmt::format("must be above min in {}, but {} is not above {}", "xyz"[axis],
-                                         box.max[axis], box.min[axis]));
+        error(path + ".max", fmt::format("must be above min in {}, but {} is not above {}", "xyz"[axis], box.max[axis],
+                                         box.min[axis]));
       }
     }
   }

@@ -9,12 +9,14 @@
 
 /// The keys of a scene file, once: name, meaning, range. Reader, writer and schema are visitors of these functions.
 /// A visitor offers type, choice, word, text, file, number, whole, flag, point, direction, triple, pair, object,
-/// optional, list, transform and matrix, each (key, target, [range or names,] help), and three modifiers:
-/// required() for the next key, applies(condition, when) for all the following ones, always() to end that.
-/// A triple is one number for all three components, or three. type() is required; it returns false if the type cannot be told; the rest of that object is then left alone.
+/// optional, list, transform and matrix, each (key, target, [range or names,] help), and three modifiers: required()
+/// for the next key, applies(condition, when) for all the following ones, always() to end that. A triple is one
+/// number for all three components, or three. type() is required; it returns false if the type cannot be told, and
+/// the rest of that object is then left alone.
 namespace tyndall::scene {
 
-template <class Enum, std::size_t N> using NameTable = std::array<std::pair<std::string_view, Enum>, N>;
+template <class Enum, std::size_t N>
+using NameTable = std::array<std::pair<std::string_view, Enum>, N>;
 
 inline constexpr NameTable<Camera::Kind, 2> kCameraTypes{
     {{"perspective", Camera::Kind::Perspective}, {"orthographic", Camera::Kind::Orthographic}}};
@@ -34,7 +36,7 @@ static_assert(kLightTypes.size() == std::variant_size_v<Light>);
 struct PhaseName {
   std::string_view name;
   PhaseId id;
-  std::string_view parameters;  ///< in order, blank-separated
+  std::string_view parameters; ///< in order, blank-separated
 };
 inline constexpr std::array kPhases{
 #define X(Name, prefix, number, sceneName, parameterNames) PhaseName{sceneName, PhaseId::Name, parameterNames},
@@ -50,7 +52,8 @@ inline constexpr auto kPhaseTypes = [] {
 }();
 
 /// Calls action(name, index) for each parameter of a phase function.
-template <class Action> void forEachParameter(std::string_view parameters, Action action) {
+template <class Action>
+void forEachParameter(std::string_view parameters, Action action) {
   for (std::size_t index = 0; !parameters.empty(); ++index) {
     const std::size_t end = std::min(parameters.find(' '), parameters.size());
     action(parameters.substr(0, end), index);
@@ -79,7 +82,8 @@ struct EmissionOf {
   bool homogeneous;
 };
 
-template <class V> void fields(V& v, Camera& camera) {
+template <class V>
+void fields(V& v, Camera& camera) {
   v.choice("type", camera.kind, Names<Camera::Kind>(kCameraTypes), "the projection");
   v.point("position", camera.position, "where the camera stands, scene units");
   v.point("target", camera.target, "a point in the middle of the picture, scene units");
@@ -92,37 +96,43 @@ template <class V> void fields(V& v, Camera& camera) {
   v.always();
 }
 
-template <class V> void fields(V& v, FilmSettings& film) {
+template <class V>
+void fields(V& v, FilmSettings& film) {
   v.pair("size", film.size, WholeRange{1, 65536}, "width and height, pixels");
   v.number("exposure", film.exposure, Range{-64.0, 64.0, "stops"}, "for the PNG only");
   v.choice("view", film.view, Names<View>(kViews), "tone curve of the PNG");
   v.flag("transparent", film.transparent, "leave the background out of R, G, B; it stays in a layer of its own");
 }
 
-template <class V> void fields(V& v, RenderSettings& render) {
+template <class V>
+void fields(V& v, RenderSettings& render) {
   v.whole("samples", render.samples, WholeRange{1, 1u << 30}, "per pixel");
   v.whole("seed", render.seed, WholeRange{0, 0xffffffffu}, "of the random numbers");
   v.whole("depth", render.depth, WholeRange{1, 1u << 16}, "scattering events; this version renders 1");
 }
 
-template <class V> void fields(V& v, TransformStep::Rotation& rotation) {
+template <class V>
+void fields(V& v, TransformStep::Rotation& rotation) {
   v.required().direction("axis", rotation.axis, "of the rotation; it turns counterclockwise seen from its tip");
   v.required().number("degrees", rotation.degrees, Range{-1e6, 1e6, "degrees"}, "angle");
 }
 
-template <class V> void fields(V& v, TransformStep& step) {
+template <class V>
+void fields(V& v, TransformStep& step) {
   v.point("translate", step.translate, "added to the position, scene units");
   v.object("rotate", step.rotate, "about an axis through the origin");
   v.triple("scale", step.scale, Range{-kLargestLength, kLargestLength}, "one factor, or one per axis; not 0");
   v.matrix("matrix", step.matrix, "16 numbers, row by row; the last row is 0 0 0 1");
 }
 
-template <class V> void fields(V& v, Bounds3& bounds) {
+template <class V>
+void fields(V& v, Bounds3& bounds) {
   v.required().point("min", bounds.min, "the corner with the smallest coordinates");
   v.required().point("max", bounds.max, "the corner with the largest coordinates");
 }
 
-template <class V> void fields(V& v, Phase& phase) {
+template <class V>
+void fields(V& v, Phase& phase) {
   if (!v.type(phase.id, Names<PhaseId>(kPhaseTypes), "the phase function")) {
     return;
   }
@@ -137,7 +147,8 @@ template <class V> void fields(V& v, Phase& phase) {
   v.always();
 }
 
-template <class V> void fields(V& v, EmissionOf& view) {
+template <class V>
+void fields(V& v, EmissionOf& view) {
   Emission& emission = view.emission;
   if (!v.type(emission.kind, Names<Emission::Kind>(kEmissionTypes), "what the value or grid means")) {
     return;
@@ -149,8 +160,7 @@ template <class V> void fields(V& v, EmissionOf& view) {
   v.applies(!view.homogeneous, "a medium of type \"grid\"");
   v.required().text("grid", emission.grid, "the emission or temperature grid's name in the medium's file");
   v.applies(!view.homogeneous && blackbody, "type \"blackbody\" in a medium of type \"grid\"");
-  v.number("temperature_scale", emission.temperatureScale, Range{0.0, 1e9, "kelvin", true},
-           "per unit of the grid");
+  v.number("temperature_scale", emission.temperatureScale, Range{0.0, 1e9, "kelvin", true}, "per unit of the grid");
   v.number("temperature_offset", emission.temperatureOffset, Range{-1e6, 1e6, "kelvin"},
            "added: 273.15 for a grid in degrees Celsius");
   v.flag("temperature_auto", emission.temperatureAuto, "map the maximum of a grid plainly not in kelvin to 2000 K");
@@ -159,7 +169,8 @@ template <class V> void fields(V& v, EmissionOf& view) {
   v.always();
 }
 
-template <class V> void fields(V& v, ShapeOf& view) {
+template <class V>
+void fields(V& v, ShapeOf& view) {
   Medium& medium = view.medium;
   if (!v.type(medium.shape, Names<MediumShape>(kShapeTypes), "where the medium is")) {
     return;
@@ -172,7 +183,8 @@ template <class V> void fields(V& v, ShapeOf& view) {
   v.always();
 }
 
-template <class V> void fields(V& v, Medium& medium) {
+template <class V>
+void fields(V& v, Medium& medium) {
   v.text("name", medium.name, "for messages and --set; unique among the media");
   bool homogeneous = medium.homogeneous();
   if (!v.type(homogeneous, Names<bool>(kMediumTypes), "one extinction, or a grid from a .vdb file")) {
@@ -193,28 +205,34 @@ template <class V> void fields(V& v, Medium& medium) {
   v.word("storage", medium.storage, kStorages, "of a voxel on the device; auto is the narrowest within tolerance");
   v.flag("background", medium.background, "keep the file's background value inside the grid's bounds");
   v.always();
-  v.optional("emission", medium.emission, "glowing media",
-                 [homogeneous](Emission& emission) { return EmissionOf{emission, homogeneous}; });
+  v.optional("emission", medium.emission, "glowing media", [homogeneous](Emission& emission) {
+    return EmissionOf{emission, homogeneous};
+  });
 }
 
-template <class V> void fields(V& v, PointLight& light) {
+template <class V>
+void fields(V& v, PointLight& light) {
   v.point("position", light.position, "scene units");
   v.triple("intensity", light.intensity, kLight, "W / sr");
 }
-template <class V> void fields(V& v, SunLight& light) {
+template <class V>
+void fields(V& v, SunLight& light) {
   v.direction("direction", light.direction, "the way the light travels");
   v.triple("irradiance", light.irradiance, kLight, "W / m2 on a plane perpendicular to the light");
   v.number("angular_diameter", light.angularDiameter, Range{0.0, 90.0, "degrees"}, "of the disc; 0 for sharp shadows");
 }
-template <class V> void fields(V& v, ConstantEnvironment& light) {
+template <class V>
+void fields(V& v, ConstantEnvironment& light) {
   v.triple("radiance", light.radiance, kLight, "W / (m2 sr) from every direction");
 }
-template <class V> void fields(V& v, MapEnvironment& light) {
+template <class V>
+void fields(V& v, MapEnvironment& light) {
   v.required().file("file", light.file, "lat-long .exr, relative to the scene file's folder");
   v.number("scale", light.scale, kLight, "factor");
   v.number("rotation", light.rotation, Range{-1e6, 1e6, "degrees"}, "about +y");
 }
-template <class V> void fields(V& v, SkyEnvironment& light) {
+template <class V>
+void fields(V& v, SkyEnvironment& light) {
   v.direction("sun_direction", light.sunDirection, "the way the sun's light travels; downwards by day");
   v.number("turbidity", light.turbidity, Range{1.0, 10.0}, "haze, from pure air up");
   v.triple("ground_albedo", light.groundAlbedo, kFraction, "of the ground below the horizon");
@@ -222,20 +240,23 @@ template <class V> void fields(V& v, SkyEnvironment& light) {
 }
 
 /// The keys of light type `Index`, which apply if that is what `light` holds.
-template <std::size_t Index, class V> void lightFields(V& v, Light& light) {
+template <std::size_t Index, class V>
+void lightFields(V& v, Light& light) {
   std::variant_alternative_t<Index, Light> unused;
   auto* held = std::get_if<Index>(&light);
   v.applies(held != nullptr, "type \"" + std::string(kLightTypes[Index].first) + "\"");
   fields(v, held == nullptr ? unused : *held);
 }
 
-template <std::size_t Index = 0> void emplaceLight(Light& light, std::size_t wanted) {
+template <std::size_t Index = 0>
+void emplaceLight(Light& light, std::size_t wanted) {
   if constexpr (Index < std::variant_size_v<Light>) {
     Index == wanted ? static_cast<void>(light.emplace<Index>()) : emplaceLight<Index + 1>(light, wanted);
   }
 }
 
-template <class V> void fields(V& v, NamedLight& named) {
+template <class V>
+void fields(V& v, NamedLight& named) {
   v.text("name", named.name, "for messages and --set; unique among the lights");
   std::size_t type = named.light.index();
   if (!v.type(type, Names<std::size_t>(kLightTypes), "the kind of light")) {
@@ -244,15 +265,15 @@ template <class V> void fields(V& v, NamedLight& named) {
   if (type != named.light.index()) {
     emplaceLight(named.light, type);
   }
-  [&]<std::size_t... Index>(std::index_sequence<Index...>) {
-    (lightFields<Index>(v, named.light), ...);
-  }(std::make_index_sequence<std::variant_size_v<Light>>());
+  [&]<std::size_t... Index>(std::index_sequence<Index...>) { (lightFields<Index>(v, named.light), ...); }
+  (std::make_index_sequence<std::variant_size_v<Light>>());
   v.applies(!std::holds_alternative<PointLight>(named.light), "every type but \"point\"");
   v.flag("visible", named.visible, "seen directly by the camera");
   v.always();
 }
 
-template <class V> void fields(V& v, Scene& scene) {
+template <class V>
+void fields(V& v, Scene& scene) {
   v.text("name", scene.name, "a title; the file's name if left out");
   v.object("camera", scene.camera, "where the picture is taken from");
   v.object("film", scene.film, "what the picture is");

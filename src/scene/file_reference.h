@@ -8,8 +8,8 @@ namespace tyndall::scene {
 
 /// A file that a scene names.
 struct FileReference {
-  std::filesystem::path path;  ///< absolute, or relative to the working folder
-  std::string problem;         ///< empty if it can be read; else what is wrong and the fix
+  std::filesystem::path path; ///< absolute, or relative to the working folder
+  std::string problem;        ///< empty if it can be read; else what is wrong and the fix
 };
 
 /// Resolves a file name against `folder` and checks that it is there. A name with frame digits left open

@@ -14,7 +14,7 @@ namespace tyndall::scene {
 /// A problem before its position is turned into file:line:column.
 struct Finding {
   json::Position position;
-  std::string path;        ///< key path, "media.0.phase.g"; empty: the whole file
+  std::string path; ///< key path, "media.0.phase.g"; empty: the whole file
   std::string message;
   bool warning = false;
 };

@@ -24,8 +24,8 @@ public:
       parsed.root = value(0);
       scan_.skipBlank();
       if (!scan_.atEnd()) {
-        scan_.stop(fmt::format(
-            "{} follows the end of the value; remove it, or look for a bracket closed too early", scan_.here()));
+        scan_.stop(fmt::format("{} follows the end of the value; remove it, or look for a bracket closed too early",
+                               scan_.here()));
       }
       parsed.complete = true;
     } catch (const Scanner::Stop&) {
@@ -81,8 +81,8 @@ private:
     }
     const char c = scan_.peek();
     requireMore(close, open);
-    const bool startsItem = c == '"' || c == '\'' || isWordStart(c) ||
-                            (close == ']' && (isNumberStart(c) || c == '{' || c == '['));
+    const bool startsItem =
+        c == '"' || c == '\'' || isWordStart(c) || (close == ']' && (isNumberStart(c) || c == '{' || c == '['));
     if (!startsItem) {
       scan_.stop(fmt::format("{} or a comma is needed here, not {}", close, scan_.here()));
     }
@@ -134,7 +134,7 @@ private:
     result.value = value(depth + 1);
     if (const Member* first = object.member(result.key)) {
       scan_.slip(result.position, fmt::format("the key \"{}\" was already given in line {}, column {}; remove one",
-                                        result.key, first->position.line, first->position.column));
+                                              result.key, first->position.line, first->position.column));
       return;
     }
     if (object.members.size() == kMaximumKeys) {
@@ -146,7 +146,8 @@ private:
   Scanner scan_;
 };
 
-template <class Values> auto findIn(Values& members, std::string_view key) {
+template <class Values>
+auto findIn(Values& members, std::string_view key) {
   return std::find_if(members.begin(), members.end(), [&](const Member& m) { return m.key == key; });
 }
 
@@ -172,14 +173,20 @@ Parsed parse(std::string_view text, int override) { return Parser(text, override
 std::string inWords(const Value& value) {
   constexpr std::size_t kLongest = 40;
   switch (value.kind) {
-  case Kind::Invalid: return "a malformed value";
-  case Kind::Null: return "null";
-  case Kind::Boolean: return value.boolean ? "true" : "false";
-  case Kind::Number: return value.text;
+  case Kind::Invalid:
+    return "a malformed value";
+  case Kind::Null:
+    return "null";
+  case Kind::Boolean:
+    return value.boolean ? "true" : "false";
+  case Kind::Number:
+    return value.text;
   case Kind::String:
     return "the text " + (value.text.size() <= kLongest ? inQuotes(value.text) : "that stands here");
-  case Kind::Array: return fmt::format("a list of {}", value.items.size());
-  case Kind::Object: return "an object";
+  case Kind::Array:
+    return fmt::format("a list of {}", value.items.size());
+  case Kind::Object:
+    return "an object";
   }
   return {};
 }

@@ -13,7 +13,7 @@ namespace tyndall::scene::json {
 struct Position {
   int line = 0;
   int column = 0;
-  int override = -1;  ///< >= 0: written on the command line, as the override of that number
+  int override = -1; ///< >= 0: written on the command line, as the override of that number
   auto operator<=>(const Position&) const = default;
 };
 
@@ -22,12 +22,12 @@ enum class Kind { Invalid, Null, Boolean, Number, String, Array, Object };
 struct Member;
 
 struct Value {
-  Kind kind = Kind::Null;          ///< Invalid: malformed and already reported
+  Kind kind = Kind::Null; ///< Invalid: malformed and already reported
   bool boolean = false;
-  double number = 0.0;             ///< finite
-  std::string text;                ///< a string's text, or a number as it was written
+  double number = 0.0; ///< finite
+  std::string text;    ///< a string's text, or a number as it was written
   std::vector<Value> items;
-  std::vector<Member> members;     ///< in file order, keys unique
+  std::vector<Member> members; ///< in file order, keys unique
   Position position;
 
   const Value* find(std::string_view key) const;
@@ -44,13 +44,13 @@ struct Member {
 /// Something wrong with the text itself.
 struct Mistake {
   Position position;
-  std::string message;             ///< what is wrong and the fix
+  std::string message; ///< what is wrong and the fix
 };
 
 struct Parsed {
   Value root;
-  bool complete = false;           ///< false: the text could not be followed to its end
-  std::vector<Mistake> mistakes;   ///< in text order; those that allow it are collected
+  bool complete = false;         ///< false: the text could not be followed to its end
+  std::vector<Mistake> mistakes; ///< in text order; those that allow it are collected
 };
 
 /// Deeper nesting than this is a mistake; a scene needs 7 levels.

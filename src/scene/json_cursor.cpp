@@ -9,9 +9,7 @@ std::size_t characterLength(std::string_view text, std::size_t at) {
   if (at >= text.size()) {
     return 0;
   }
-  const auto byte = [&](std::size_t i) {
-    return at + i < text.size() ? static_cast<unsigned char>(text[at + i]) : 0u;
-  };
+  const auto byte = [&](std::size_t i) { return at + i < text.size() ? static_cast<unsigned char>(text[at + i]) : 0u; };
   const auto tail = [&](std::size_t i) { return (byte(i) & 0xc0u) == 0x80u; };
   const unsigned lead = byte(0);
   const unsigned second = byte(1);

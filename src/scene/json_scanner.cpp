@@ -167,8 +167,7 @@ void Scanner::word(Value& result) {
   if (lower == "nan" || lower == "inf" || lower == "infinity") {
     slip(result.position, fmt::format("{} is not allowed; write a finite number", name));
   } else if (lower == "true" || lower == "false" || lower == "null" || lower == "none") {
-    slip(result.position,
-         fmt::format("write {} in place of {}", lower == "none" ? "null" : lower, name));
+    slip(result.position, fmt::format("write {} in place of {}", lower == "none" ? "null" : lower, name));
   } else {
     slip(result.position, fmt::format("text stands in double quotes: write \"{}\"", name));
   }
@@ -204,8 +203,8 @@ std::string Scanner::string() {
   while (cursor_.peek() != quote || cursor_.atEnd()) {
     const auto byte = static_cast<unsigned char>(cursor_.peek());
     if (cursor_.atEnd() || byte == '\n') {
-      stop(fmt::format("the text that starts in line {}, column {} is not closed; add {}", start.line,
-                       start.column, quote));
+      stop(fmt::format("the text that starts in line {}, column {} is not closed; add {}", start.line, start.column,
+                       quote));
     }
     if (byte == '\\') {
       escape(text);
@@ -262,7 +261,8 @@ std::optional<unsigned> Scanner::hexCode() {
   unsigned code = 0;
   for (int i = 0; i < 4; ++i) {
     const char c = cursor_.peek();
-    const std::size_t digit = std::string_view("0123456789abcdef").find(isWordStart(c) ? static_cast<char>(c | 0x20) : c);
+    const std::size_t digit =
+        std::string_view("0123456789abcdef").find(isWordStart(c) ? static_cast<char>(c | 0x20) : c);
     if (digit == std::string_view::npos) {
       return std::nullopt;
     }

@@ -40,9 +40,12 @@ std::vector<Problem> problemsOf(std::vector<Finding> findings, const std::string
   return problems;
 }
 
-LoadResult failed(const std::string& name, const std::string& message) {
+LoadResult failed(const SourceLocation& location, const std::string& message) {
+  Problem problem;
+  problem.location = location;
+  problem.message = message;
   LoadResult result;
-  result.problems.push_back({.location = {name, 1, 1}, .message = message, .warning = false});
+  result.problems.push_back(problem);
   return result;
 }
 
@@ -80,14 +83,12 @@ LoadResult readScene(const fs::path& path, const std::vector<Override>& override
   const std::string name = path.string();
   std::error_code ignored;
   if (fs::is_regular_file(path, ignored) && fs::file_size(path, ignored) > kLargestFile) {
-    return failed(name, "is larger than 4 MB, which no scene is; name a .json scene file");
+    return failed({name, 1, 1}, "is larger than 4 MB, which no scene is; name a .json scene file");
   }
   try {
     return parseScene(readTextFile(path), name, path.parent_path(), overrides);
   } catch (const Error& error) {
-    LoadResult result;
-    result.problems.push_back({.location = {}, .message = error.what(), .warning = false});
-    return result;
+    return failed({}, error.what());
   }
 }
 

@@ -23,11 +23,12 @@ struct WholeRange {
 };
 
 /// The words of a scene file for the values of an enum.
-template <class Enum> using Names = std::span<const std::pair<std::string_view, Enum>>;
+template <class Enum>
+using Names = std::span<const std::pair<std::string_view, Enum>>;
 
 // The device works in float relative to the scene's centre: these keep every product well inside its range.
-inline constexpr double kLargestLength = 1e9;    ///< scene units
-inline constexpr double kLargestLight = 1e15;    ///< any light unit
+inline constexpr double kLargestLength = 1e9;      ///< scene units
+inline constexpr double kLargestLight = 1e15;      ///< any light unit
 inline constexpr double kLargestExtinction = 1e10; ///< 1 / scene unit
 
 inline constexpr Range kLight{0.0, kLargestLight};

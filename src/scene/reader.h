@@ -16,7 +16,8 @@ namespace tyndall::scene {
 /// What reading needs beside the tree.
 struct ReadContext {
   Findings& findings;
-  std::filesystem::path folder;  ///< file references in the text are relative to it, those of --set to the working folder
+  std::filesystem::path
+      folder; ///< file references in the text are relative to it, those of --set to the working folder
 };
 
 /// The visitor of fields.h that fills one object from JSON and reports what does not fit. A value that does not fit
@@ -35,7 +36,8 @@ public:
   }
   void always() { active_ = true; }
 
-  template <class Enum> bool type(Enum& target, Names<Enum> names, std::string_view help) {
+  template <class Enum>
+  bool type(Enum& target, Names<Enum> names, std::string_view help) {
     required_ = true;
     const std::size_t before = context_.findings.all().size();
     choice("type", target, names, help);
@@ -65,7 +67,8 @@ public:
   void matrix(std::string_view key, glm::dmat4& target, std::string_view);
   void transform(std::string_view key, glm::dmat4& worldFromMedium, std::string_view);
 
-  template <class T> void object(std::string_view key, T& target, std::string_view) {
+  template <class T>
+  void object(std::string_view key, T& target, std::string_view) {
     if (const json::Value* value = take(key)) {
       readObject(*value, pathOf(key), target);
     }
@@ -79,7 +82,8 @@ public:
     auto&& view = asView(target.emplace());
     readObject(*value, pathOf(key), view);
   }
-  template <class T> void list(std::string_view key, std::vector<T>& target, std::string_view) {
+  template <class T>
+  void list(std::string_view key, std::vector<T>& target, std::string_view) {
     const json::Value* value = take(key);
     if (value == nullptr || !isList(*value, pathOf(key))) {
       return;
@@ -111,7 +115,8 @@ private:
   bool isObject(const json::Value& value, const std::string& path);
   void reportUnused(const json::Member& member);
 
-  template <class T> void readObject(const json::Value& value, std::string path, T& target) {
+  template <class T>
+  void readObject(const json::Value& value, std::string path, T& target) {
     if (!isObject(value, path)) {
       return;
     }

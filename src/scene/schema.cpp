@@ -13,7 +13,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-template <class T> Json objectSchema(T& object);
+template <class T>
+Json objectSchema(T& object);
 
 /// The visitor of fields.h that describes the keys of one object.
 class Describer {
@@ -25,11 +26,13 @@ public:
   void applies(bool, std::string when) { when_ = std::move(when); }
   void always() { when_.clear(); }
 
-  template <class Enum> bool type(Enum&, Names<Enum> names, std::string_view help) {
+  template <class Enum>
+  bool type(Enum&, Names<Enum> names, std::string_view help) {
     required().choiceOf("type", names, help);
     return true;
   }
-  template <class Enum> void choice(std::string_view key, Enum& target, Names<Enum> names, std::string_view help) {
+  template <class Enum>
+  void choice(std::string_view key, Enum& target, Names<Enum> names, std::string_view help) {
     Json& schema = choiceOf(key, names, help);
     for (const auto& [word, value] : names) {
       if (value == target) {
@@ -80,7 +83,8 @@ public:
     schema["maxProperties"] = 1;
     add(key, {{"type", "array"}, {"items", schema}}, help);
   }
-  template <class T> void object(std::string_view key, T& target, std::string_view help) {
+  template <class T>
+  void object(std::string_view key, T& target, std::string_view help) {
     add(key, objectSchema(target), help);
   }
   template <class T, class AsView = std::identity>
@@ -89,7 +93,8 @@ public:
     auto&& view = asView(value);
     add(key, {{"anyOf", Json::array({{{"type", "null"}}, objectSchema(view)})}, {"default", nullptr}}, help);
   }
-  template <class T> void list(std::string_view key, std::vector<T>&, std::string_view help) {
+  template <class T>
+  void list(std::string_view key, std::vector<T>&, std::string_view help) {
     T item{};
     add(key, {{"type", "array"}, {"items", objectSchema(item)}}, help);
   }
@@ -132,7 +137,8 @@ private:
     return schema;
   }
 
-  template <class Enum> Json& choiceOf(std::string_view key, Names<Enum> names, std::string_view help) {
+  template <class Enum>
+  Json& choiceOf(std::string_view key, Names<Enum> names, std::string_view help) {
     Json words = Json::array();
     for (const auto& name : names) {
       words.push_back(name.first);
@@ -163,7 +169,8 @@ private:
   bool required_ = false;
 };
 
-template <class T> Json objectSchema(T& object) {
+template <class T>
+Json objectSchema(T& object) {
   Describer describer;
   fields(describer, object);
   return describer.finish();

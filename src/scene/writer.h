@@ -21,7 +21,8 @@ public:
   void applies(bool active, const std::string&) { active_ = active; }
   void always() { active_ = true; }
 
-  template <class Enum> bool type(Enum& target, Names<Enum> names, std::string_view help) {
+  template <class Enum>
+  bool type(Enum& target, Names<Enum> names, std::string_view help) {
     choice("type", target, names, help);
     return true;
   }
@@ -50,7 +51,8 @@ public:
   void matrix(std::string_view key, glm::dmat4& target, std::string_view);
   void transform(std::string_view key, glm::dmat4& worldFromMedium, std::string_view);
 
-  template <class T> void object(std::string_view key, T& target, std::string_view) {
+  template <class T>
+  void object(std::string_view key, T& target, std::string_view) {
     if (active_) {
       put(key, "");
       writeObject(target, indent_ + 2);
@@ -64,7 +66,8 @@ public:
     auto&& view = asView(*target);
     object(key, view, help);
   }
-  template <class T> void list(std::string_view key, std::vector<T>& target, std::string_view) {
+  template <class T>
+  void list(std::string_view key, std::vector<T>& target, std::string_view) {
     put(key, "[");
     for (T& item : target) {
       out_ += &item == target.data() ? "\n" : ",\n";
@@ -79,7 +82,8 @@ public:
 private:
   /// Writes "key": value if the key applies.
   void put(std::string_view key, const std::string& value);
-  template <class T> void writeObject(T& target, std::size_t indent) {
+  template <class T>
+  void writeObject(T& target, std::size_t indent) {
     Writer writer(out_, indent, folder_);
     fields(writer, target);
     writer.finish();

@@ -30,6 +30,7 @@ constexpr std::array kRoleWords{
     RoleWord{"pressure", Role::Other},          RoleWord{"divergence", Role::Other},
     RoleWord{"vorticity", Role::Other},         RoleWord{"curl", Role::Other},
     RoleWord{"fuel", Role::Other},              RoleWord{"collision", Role::Other},
+    RoleWord{"obstacle", Role::Other},
     RoleWord{"surface", Role::Other},           RoleWord{"levelset", Role::Other},
     RoleWord{"level_set", Role::Other},         RoleWord{"distance", Role::Other},
     RoleWord{"colour", Role::Other},            RoleWord{"color", Role::Other},

@@ -103,12 +103,15 @@ glm::dvec3 coarsened(const glm::dvec3& velocity) { return glm::round(velocity * 
 
 FieldSample plumeAt(const glm::dvec3& p) {
   const double height = p.y / 2.0; // 0 at the source, 1 at the top
-  // Swirls that grow with height: the column is turned and bent before it is looked up.
-  const double turn = 2.2 * height * fractal(glm::dvec3(1.6, 1.3, 1.6) * p, 11, 2);
+  // Swirls that grow with height: the column is bent and turned before it is looked up.
   const glm::dvec3 bend(0.22 * height * noise(glm::dvec3(0.0, 1.5 * p.y, 0.3), 23), 0.0,
                         0.22 * height * noise(glm::dvec3(0.7, 1.5 * p.y, 0.0), 31));
   const double radius = 0.08 + 0.47 * std::pow(std::max(height, 0.0), 1.1);
   const glm::dvec3 q = p - bend;
+  if (glm::length(glm::dvec2(q.x, q.z)) > 2.0 * radius) {
+    return {}; // beyond what the curls below can reach
+  }
+  const double turn = 2.2 * height * fractal(glm::dvec3(1.6, 1.3, 1.6) * p, 11, 2);
   const glm::dvec2 across(std::cos(turn) * q.x - std::sin(turn) * q.z, std::sin(turn) * q.x + std::cos(turn) * q.z);
   const glm::dvec3 warped(across.x, 0.8 * q.y, across.y);
   const double curls = 1.15 * billow(3.0 * warped + glm::dvec3(0.0, -1.0, 0.0), 47, 4) + 0.35 * fractal(2.2 * warped, 59, 3);
@@ -155,7 +158,10 @@ double distanceToPuffs(const std::vector<Puff>& puffs, const glm::dvec3& p) {
   constexpr double kRounding = 25.0;
   double sum = 0.0;
   for (const Puff& puff : puffs) {
-    sum += std::exp(-std::clamp(glm::length(p - puff.centre) - puff.radius, -2000.0, 2000.0) / kRounding);
+    const double distance = glm::length(p - puff.centre) - puff.radius;
+    if (distance < 12.0 * kRounding) {
+      sum += std::exp(-distance / kRounding);
+    }
   }
   return sum > 0.0 ? -kRounding * std::log(sum) : 1e4;
 }
@@ -205,6 +211,9 @@ FieldSample flameAt(const glm::dvec3& p) {
   for (std::size_t i = 0; i < kTongues.size(); ++i) {
     inside = std::max(inside, insideTongue(kTongues[i], wrinkled, 307u + 10u * std::uint32_t(i)));
   }
+  if (inside == 0.0) {
+    return {};
+  }
   const double licks = fractal(glm::dvec3(9.0 * p.x, 4.0 * p.y - 1.5, 9.0 * p.z), 313, 4);
   const double body = smoothStep(-0.02, 0.02, p.y) * smoothStep(0.06, 0.55, inside + 0.55 * licks * std::min(inside * 4.0, 1.0));
   FieldSample sample;
@@ -231,14 +240,14 @@ GeneratedVolume withRoom(const glm::ivec3& size, const glm::ivec3& indexMin, dou
 } // namespace
 
 GeneratedVolume makePlume() {
-  GeneratedVolume volume = withRoom({64, 96, 64}, {-32, -2, -32}, 0.0225);
+  GeneratedVolume volume = withRoom({72, 96, 72}, {-36, -2, -36}, 0.0225);
   volume.velocity.assign(volume.voxelCount(), glm::vec3(0.0f));
   fill(volume, plumeAt);
   return volume;
 }
 
 GeneratedVolume makeCloud() {
-  GeneratedVolume volume = withRoom({96, 64, 72}, {-48, -3, -36}, 19.0);
+  GeneratedVolume volume = withRoom({104, 64, 76}, {-52, -3, -38}, 19.0);
   const std::vector<Puff> puffs = makePuffs();
   fill(volume, [&](const glm::dvec3& p) { return FieldSample{.density = cloudDensity(puffs, p)}; });
   return volume;

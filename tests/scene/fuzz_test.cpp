@@ -44,10 +44,18 @@ TEST(SceneDamage, FlippedBitsAndMovedBytesNeverCrash) {
     for (int change = 0; change < changes; ++change) {
       const std::size_t at = random() % text.size();
       switch (random() % 4) {
-      case 0: text[at] = static_cast<char>(text[at] ^ (1u << (random() % 8))); break;
-      case 1: text[at] = structure[random() % structure.size()]; break;
-      case 2: text.erase(at, 1 + random() % 8); break;
-      default: text.insert(at, text.substr(random() % text.size(), random() % 32)); break;
+      case 0:
+        text[at] = static_cast<char>(text[at] ^ (1u << (random() % 8)));
+        break;
+      case 1:
+        text[at] = structure[random() % structure.size()];
+        break;
+      case 2:
+        text.erase(at, 1 + random() % 8);
+        break;
+      default:
+        text.insert(at, text.substr(random() % text.size(), random() % 32));
+        break;
       }
     }
     ASSERT_NO_FATAL_FAILURE(expectSoundOrLocated(text)) << text;
@@ -58,13 +66,36 @@ TEST(SceneDamage, EveryValueOfEveryWrongKindIsReported) {
   // Each number, text, list and object of the scene replaced by something else: never a crash, never silence about
   // a key that cannot hold it.
   const std::vector<std::string> replacements{"null", "true", "-1e300", "\"\"", "[]", "{}", "[[[]]]", "{\"type\": 5}"};
-  const std::vector<std::string> paths{
-      "camera", "camera.type", "camera.position", "camera.vertical_fov", "film", "film.size", "film.view", "render",
-      "render.samples", "media", "media.0", "media.0.type", "media.0.transform", "media.0.transform.0",
-      "media.0.transform.0.rotate", "media.0.transform.0.rotate.axis", "media.0.albedo", "media.0.phase",
-      "media.0.phase.g1", "media.0.file", "media.0.storage", "media.2.shape", "media.2.shape.min",
-      "media.2.extinction", "lights", "lights.0", "lights.0.position", "lights.1.direction", "lights.1.visible",
-      "lights.4.turbidity"};
+  const std::vector<std::string> paths{"camera",
+                                       "camera.type",
+                                       "camera.position",
+                                       "camera.vertical_fov",
+                                       "film",
+                                       "film.size",
+                                       "film.view",
+                                       "render",
+                                       "render.samples",
+                                       "media",
+                                       "media.0",
+                                       "media.0.type",
+                                       "media.0.transform",
+                                       "media.0.transform.0",
+                                       "media.0.transform.0.rotate",
+                                       "media.0.transform.0.rotate.axis",
+                                       "media.0.albedo",
+                                       "media.0.phase",
+                                       "media.0.phase.g1",
+                                       "media.0.file",
+                                       "media.0.storage",
+                                       "media.2.shape",
+                                       "media.2.shape.min",
+                                       "media.2.extinction",
+                                       "lights",
+                                       "lights.0",
+                                       "lights.0.position",
+                                       "lights.1.direction",
+                                       "lights.1.visible",
+                                       "lights.4.turbidity"};
   for (const std::string& path : paths) {
     int refused = 0;
     for (const std::string& replacement : replacements) {

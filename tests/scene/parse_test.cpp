@@ -35,7 +35,8 @@ TEST(SceneText, ByteOrderMarkShowsNoColumn) {
 }
 
 TEST(SceneText, AgreesWithAnotherParser) {
-  const std::string text = R"({"s": "\u00e9\ud83d\ude00\"\\\/\b\f\n\r\t \u0000 end", "n": [0, -0.0, 1e-3, 123456789.125, -2E+5,
+  const std::string text =
+      R"({"s": "\u00e9\ud83d\ude00\"\\\/\b\f\n\r\t \u0000 end", "n": [0, -0.0, 1e-3, 123456789.125, -2E+5,
     4.9406564584124654e-310, 1.7976931348623157e308], "b": [true, false, null], "o": {"": {}}, "e": []})";
   const nlohmann::json expected = nlohmann::json::parse(text);
   const Parsed parsed = parse(text);

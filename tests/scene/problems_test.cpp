@@ -16,7 +16,7 @@ using test::parse;
 
 struct Malformed {
   const char* text;
-  const char* message;  ///< must be part of the message
+  const char* message; ///< must be part of the message
   bool warning = false;
 };
 
@@ -70,8 +70,8 @@ void expectOne(const std::string& markedText, const std::string& message, bool w
 }
 
 TEST(SceneProblems, TheFramesAroundTheCasesAreSound) {
-  for (const std::string& text : {inScene(R"("name": "a")"), inMedium(R"("type": "homogeneous")"),
-                                  inLight(R"("type": "point")")}) {
+  for (const std::string& text :
+       {inScene(R"("name": "a")"), inMedium(R"("type": "homogeneous")"), inLight(R"("type": "point")")}) {
     const LoadResult result = parse(text);
     EXPECT_TRUE(result.problems.empty()) << listed(result);
   }
@@ -112,7 +112,8 @@ TEST(SceneProblems, MalformedText) {
 TEST(SceneProblems, SlipsInTheText) {
   const std::vector<Malformed> cases{
       {R"("name": "a",
-  @"name": "b")", "the key \"name\" was already given in line 2, column 3"},
+  @"name": "b")",
+       "the key \"name\" was already given in line 2, column 3"},
       {R"("name": "a" @"film": {})", "a comma is missing"},
       {R"(@name: "a")", "keys stand in double quotes: write \"name\""},
       {R"("name": @'a')", "write double quotes, not single quotes"},

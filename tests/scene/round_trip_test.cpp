@@ -60,7 +60,8 @@ TEST(SceneValues, TransformStepsApplyInTheOrderWritten) {
   for (int column = 0; column < 4; ++column) {
     EXPECT_LT(glm::length(result.scene.media[0].worldFromMedium[column] - expected[column]), 1e-14) << column;
   }
-  const LoadResult turned = parse(everything(), {{"media.0.transform", R"([{"rotate": {"axis": [0, 0, 9], "degrees": 90}}])"}});
+  const LoadResult turned =
+      parse(everything(), {{"media.0.transform", R"([{"rotate": {"axis": [0, 0, 9], "degrees": 90}}])"}});
   const glm::dvec4 image = turned.scene.media[0].worldFromMedium * glm::dvec4(1, 0, 0, 1);
   EXPECT_LT(glm::length(image - glm::dvec4(0, 1, 0, 1)), 1e-15) << "+90 degrees about +z takes +x to +y";
 }

@@ -71,8 +71,9 @@ bool meets(const json& schema, const json& value, const std::string& path, std::
   if (schema.contains("enum") && std::count(schema["enum"].begin(), schema["enum"].end(), value) == 0) {
     return breach("enum");
   }
-  if (value.is_number() && (value < schema.value("minimum", json(-1e300)) || value > schema.value("maximum", json(1e300)) ||
-                            value <= schema.value("exclusiveMinimum", json(-1e300)))) {
+  if (value.is_number() &&
+      (value < schema.value("minimum", json(-1e300)) || value > schema.value("maximum", json(1e300)) ||
+       value <= schema.value("exclusiveMinimum", json(-1e300)))) {
     return breach("range");
   }
   for (const json& key : schema.value("required", json::array())) {
@@ -80,7 +81,8 @@ bool meets(const json& schema, const json& value, const std::string& path, std::
       return breach("required " + key.get<std::string>());
     }
   }
-  if (value.is_array() && (value.size() < schema.value("minItems", 0u) || value.size() > schema.value("maxItems", 1000u))) {
+  if (value.is_array() &&
+      (value.size() < schema.value("minItems", 0u) || value.size() > schema.value("maxItems", 1000u))) {
     return breach("length");
   }
   for (std::size_t i = 0; value.is_array() && i < value.size(); ++i) {
@@ -127,11 +129,18 @@ TEST(SceneSchema, AcceptsWhatTheReaderAccepts) {
 
 TEST(SceneSchema, RefusesWhatTheReaderRefuses) {
   const json schema = json::parse(jsonSchema());
-  const std::vector<Override> broken{
-      {"film.size", "[0, 1]"},      {"film.exposur", "1"},       {"film.view", "\"warm\""},
-      {"camera.vertical_fov", "0"}, {"media.0.albedo", "1.5"},   {"media.0.phase.weight", "-1"},
-      {"media.0.phase", "{}"},      {"media.0.storage", "\"x\""}, {"lights.0.position", "[1, 2]"},
-      {"lights.4.turbidity", "11"}, {"media", "{}"},             {"render.samples", "1.5"}};
+  const std::vector<Override> broken{{"film.size", "[0, 1]"},
+                                     {"film.exposur", "1"},
+                                     {"film.view", "\"warm\""},
+                                     {"camera.vertical_fov", "0"},
+                                     {"media.0.albedo", "1.5"},
+                                     {"media.0.phase.weight", "-1"},
+                                     {"media.0.phase", "{}"},
+                                     {"media.0.storage", "\"x\""},
+                                     {"lights.0.position", "[1, 2]"},
+                                     {"lights.4.turbidity", "11"},
+                                     {"media", "{}"},
+                                     {"render.samples", "1.5"}};
   for (const Override& change : broken) {
     std::string pointer = "/" + change.path;
     std::replace(pointer.begin(), pointer.end(), '.', '/');

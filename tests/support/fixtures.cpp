@@ -96,8 +96,8 @@ FloatGrid::Ptr frustum() {
   auto grid = named<FloatGrid>("density", 0.0f);
   grid->fill(CoordBBox(Coord(2, 2, 2), Coord(29, 29, 29)), 0.5f);
   const openvdb::BBoxd box(openvdb::Vec3d(0.0), openvdb::Vec3d(31.0));
-  // Twice as wide at the far end; voxels 0.1 wide at the near plane.
-  grid->setTransform(Transform::createFrustumTransform(box, 0.5, 3.0, 0.1));
+  // Twice as wide at the far end; voxels 0.1 wide at the near plane, where a depth of 60 of them is 6 units.
+  grid->setTransform(Transform::createFrustumTransform(box, 0.5, 60.0, 0.1));
   return grid;
 }
 

@@ -50,6 +50,7 @@ void compareGrid(const fs::path& path, const GridInfo& info) {
   options.storage = Storage::Float;
   const BrickGrid grid = loadGrid(path, options);
   const Oracle oracle(path, info.name);
+  const double tolerance = 1e-6 * double(grid.maximum());
   const Bounds3 bounds = grid.indexBounds();
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform(-0.05, 1.05); // some outside
@@ -57,7 +58,7 @@ void compareGrid(const fs::path& path, const GridInfo& info) {
     glm::dvec3 at = bounds.min + bounds.size() * glm::dvec3(uniform(random), uniform(random), uniform(random));
     at = random() % 4 == 0 ? glm::round(at) : at;
     const double expected = oracle.at(at);
-    ASSERT_NEAR(grid.value(at), expected, 1e-6 * double(grid.maximum())) << path << " " << info.name;
+    ASSERT_NEAR(grid.value(at), expected, tolerance) << path << " " << info.name;
     const glm::dvec3 world(grid.worldFromIndex * glm::dvec4(at, 1.0));
     ASSERT_LE(glm::length(world - oracle.world(at)), 1e-12 * (1.0 + glm::length(world) + glm::length(at)));
   }
@@ -96,8 +97,8 @@ TEST(BoxSampler, AgreesOnTheFilesOfTheEnvironment) {
     if (entry.path().extension() == ".vdb") {
       EXPECT_NO_THROW(compared += compareFile(entry.path())) << entry.path();
       try {
-        EXPECT_NO_FATAL_FAILURE(loadGrid(entry.path(), {}));
-      } catch (const Error& problem) {
+        loadGrid(entry.path(), {});
+      } catch (const Error& problem) { // points, velocities: said in words, and nothing else escapes
         std::printf("%s\n", problem.what());
       }
     }

@@ -179,9 +179,9 @@ TEST_F(Load, FrustumsAreResampled) {
   EXPECT_THAT(grid.report.notes, Contains(HasSubstr("frustum")));
   EXPECT_NEAR(grid.maximum(), 0.5, 1e-6);
   EXPECT_EQ(inspectFile(path("frustum")).grids.at(0).transform, "frustum");
-  // Along the frustum's axis the density is 0.5 over voxels 2..29 of 0..31, which span a depth of 3 units.
+  // Along the frustum's axis the density is 0.5 over voxels 2..29 of 0..31, which span a depth of 6 units.
   const glm::dvec3 from = grid.worldBounds().centre();
-  EXPECT_NEAR(exactOpticalDepth(grid, from, {0, 0, 1}, -100, 100), 0.5 * 3.0 * 28.0 / 31.0, 0.05);
+  EXPECT_NEAR(exactOpticalDepth(grid, from, {0, 0, 1}, -100, 100), 0.5 * 6.0 * 28.0 / 31.0, 0.05);
 }
 
 TEST_F(Load, GridsAreFoundByName) {

@@ -95,7 +95,7 @@ void freeFlightVertex(inout TraceState path, Medium medium, vec2 interval, Scene
   const float length = interval.y - interval.x;
   const float collided = oneMinusExp(medium.sigmaT * length);
   const float xi = rngFloat(rng);
-  const float s = medium.sigmaT > 0.0 ? min(-log1pAccurate(-xi * collided) / medium.sigmaT, length) : xi * length;
+  const float s = medium.sigmaT > 0.0 ? min(opticalDepthAt(xi * collided) / medium.sigmaT, length) : xi * length;
   path.vertexT = interval.x + s;
   // Transmittance through this medium cancels with the pdf; what is left is that of the others.
   const float ownDepth = medium.sigmaT * s;

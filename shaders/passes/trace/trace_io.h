@@ -71,7 +71,7 @@ struct Walk {
   ivec3 brick;
   float t;
   float tEnd;
-  float tau;             // optical depth to the next tentative collision
+  float tau;             // majorant optical depth from t to the next tentative collision
   vec3 voxelOrigin;
   vec3 voxelDirection;
   float transmittance;   // product over the segment so far

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/render_picture.h"
+
+#include "app/device_options.h"
+#include "app/picture_files.h"
+#include "app/render_progress.h"
+#include "app/render_text.h"
+#include "film/checkpoint.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tyndall::app {
+namespace fs = std::filesystem;
+namespace {
+
+/// Where only a time or an error ends a render.
+constexpr std::uint32_t kNoSampleLimit = 1u << 30;
+
+std::string percent(double share) {
+  return std::isfinite(share) ? fmt::format("{:.2g} %", 100.0 * share) : std::string("unknown");
+}
+
+render::StopRule stopRule(const RenderRequest& request, const scene::Scene& scene) {
+  const bool otherLimit = request.seconds || request.error;
+  return {.samples = otherLimit ? request.samples.value_or(kNoSampleLimit) : scene.render.samples,
+          .seconds = request.seconds,
+          .error = request.error};
+}
+
+film::Film renderWithProgress(const PictureContext& context, const Prepared& prepared, const OutputFiles& files,
+                              render::RenderReport& report) {
+  const RenderRequest& request = context.request;
+  ProgressDisplay display(request.quiet);
+  render::RenderOptions options;
+  options.crop = request.crop.value_or(film::Window{});
+  options.stop = stopRule(request, prepared.scene);
+  options.seed = prepared.scene.render.seed;
+  options.tracer = tracerOptions(request);
+  options.checkpoint = files.checkpoint;
+  options.checkpointSeconds = request.checkpointSeconds;
+  options.resume = request.resume;
+  options.sceneHash = sceneHash(prepared.scene, prepared.volumes, request);
+  options.interrupted = &context.interrupted;
+  options.progress = [&](const render::Progress& progress) {
+    render::Progress shown = progress;
+    if (request.error && progress.error > 0.0) { // the error falls with the square root of the work
+      shown.fraction = std::max(shown.fraction, std::min(1.0, std::pow(*request.error / progress.error, 2.0)));
+    }
+    display.show(shown);
+  };
+  return render::renderFilm(context.device, prepared.scene, prepared.volumes, *prepared.gpuScene, options, report);
+}
+
+/// Keeps the checkpoint of a picture that is to go on, and removes that of one that is done.
+void settleCheckpoint(const PictureContext& context, const film::Film& film, const OutputFiles& files, bool complete) {
+  if (context.request.resume || !complete) {
+    film::saveCheckpoint(files.checkpoint, film); // now with the counts
+  } else {
+    std::error_code ignored;
+    fs::remove(files.checkpoint, ignored);
+  }
+}
+
+void writeFiles(const PictureContext& context, const Prepared& prepared, const OutputFiles& files, RenderRecord& record,
+                film::Film& film) {
+  const Stopwatch watch;
+  const scene::FilmSettings& settings = prepared.scene.film;
+  record.error = film::estimateError(film);
+  for (const auto& [key, value] : pictureMetadata(record, film.metadata)) {
+    film.metadata[key] = value;
+  }
+  const PictureSettings picture{.transparent = settings.transparent,
+                                .opaqueBackground = prepared.gpuScene->features().background,
+                                .aovs = context.request.aovs,
+                                .png = {settings.exposure, filmView(settings.view)}};
+  noteSettings(picture, film.metadata);
+  record.png = writePicture(files.exr, film, picture).report;
+  if (!files.part.empty()) {
+    film::saveCheckpoint(files.part, film);
+  }
+  settleCheckpoint(context, film, files, record.report.stoppedBy != "interrupt");
+  record.timings.write = watch.seconds();
+  if (!files.statistics.empty()) {
+    writeText(files.statistics, statisticsJson(record, film.metadata));
+  }
+}
+
+void sayWhatCameOut(const PictureContext& context, const RenderRecord& record, const OutputFiles& files) {
+  const render::RenderReport& report = record.report;
+  const double perPixel = double(report.totals.samples) / std::max(1.0, double(report.mediaPixels + report.backgroundPixels));
+  context.say(fmt::format("{:.3g} samples per pixel in {} (stopped by {}), error {} (below {} with 90 % confidence), "
+                          "{} of the PNG's pixels clipped",
+                          perPixel, formatDuration(report.seconds), report.stoppedBy, percent(record.error.relative),
+                          percent(record.error.upper), percent(record.png.clippedShare)));
+  if (report.totals.negative > 0) {
+    context.say(fmt::format("{} samples were negative, which this estimator may produce", report.totals.negative));
+  }
+  context.say(fmt::format("wrote {} and {}", files.exr.string(), files.png.string()));
+  if (!files.part.empty()) {
+    context.say(fmt::format("wrote {} for tyndall merge", files.part.string()));
+  }
+}
+
+int judge(const PictureContext& context, const RenderRecord& record, const OutputFiles& files) {
+  const render::TraceTotals& totals = record.report.totals;
+  if (totals.nonFinite > 0 || totals.majorantExceeded > 0) {
+    spdlog::error("{}: the picture is not sound: {} samples were not finite and left out, {} lookups exceeded their "
+                  "majorant; please report this with the scene, and use the picture with care",
+                  files.exr.string(), totals.nonFinite, totals.majorantExceeded);
+    return kFailed;
+  }
+  if (record.report.stoppedBy == "interrupt") {
+    spdlog::warn("interrupted: {} holds what was there; the same command with --resume goes on", files.exr.string());
+    return kInterrupted;
+  }
+  if (context.request.seconds && context.request.samples && record.report.stoppedBy == "time") {
+    spdlog::warn("the time limit came before {} samples per pixel", *context.request.samples);
+  }
+  return kDone;
+}
+
+} // namespace
+
+render::TracerOptions tracerOptions(const RenderRequest& request) {
+  return {.aovs = request.deviceAovs(), .deltaTracking = request.deltaTracking};
+}
+
+int renderPicture(const PictureContext& context, const Prepared& prepared, const OutputFiles& files) {
+  render::RenderReport report;
+  film::Film film = renderWithProgress(context, prepared, files, report);
+  RenderRecord record{.request = context.request,
+                      .scene = prepared.scene,
+                      .volumes = prepared.volumes,
+                      .device = context.device,
+                      .report = report,
+                      .error = {},
+                      .png = {},
+                      .plannedBytes = prepared.volumes.deviceBytes() +
+                                      render::Tracer::plannedBytes(context.device, tracerOptions(context.request)),
+                      .timings = prepared.timings,
+                      .notes = prepared.volumes.notes};
+  const std::vector<std::string>& sceneNotes = prepared.gpuScene->notes();
+  record.notes.insert(record.notes.end(), sceneNotes.begin(), sceneNotes.end());
+  writeFiles(context, prepared, files, record, film);
+  sayWhatCameOut(context, record, files);
+  return judge(context, record, files);
+}
+
+} // namespace tyndall::app

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "app/render_source.h"
+#include "app/render_statistics.h"
+#include "gpu_scene/gpu_scene.h"
+
+#include <atomic>
+#include <memory>
+
+namespace tyndall::app {
+
+/// One picture's scene in device memory.
+struct Prepared {
+  scene::Scene scene;
+  gpu_scene::VolumeSet volumes;
+  std::unique_ptr<gpu_scene::GpuScene> gpuScene;
+  Timings timings;
+};
+
+/// What all pictures of a request share.
+struct PictureContext {
+  const RenderRequest& request;
+  const gpu::Device& device;
+  const std::atomic<bool>& interrupted;
+  Say say;
+};
+
+render::TracerOptions tracerOptions(const RenderRequest& request);
+
+/// Renders one picture, writes its files and says what came out.
+/// @return exit code: 0, 1 if the picture is unsound (samples that were not finite, or a majorant exceeded), 130 if it
+/// was interrupted. @throws Error if a file cannot be written or a checkpoint does not fit.
+int renderPicture(const PictureContext& context, const Prepared& prepared, const OutputFiles& files);
+
+} // namespace tyndall::app

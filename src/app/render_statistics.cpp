@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/render_statistics.h"
+
+#include "film/merge.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <charconv>
+
+namespace tyndall::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* trackerName(const passes::TraceSpec& spec) { return spec.kWeighted ? "weighted" : "delta"; }
+
+Json finiteOrNull(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+/// Flags of the pipeline by name: "on" or "left out"; numbers as they are.
+Json features(const passes::TraceSpec& spec) {
+  Json result = Json::object();
+  const auto note = [&](const char* name, auto value) {
+    const std::string key = name + 1; // without the k
+    if constexpr (std::is_same_v<decltype(value), bool>) {
+      result[key] = value ? "on" : "left out";
+    } else {
+      result[key] = value;
+    }
+  };
+#define SPEC(type, name, id, value) note(#name, spec.name);
+  TYNDALL_TRACE_SPEC(SPEC)
+#undef SPEC
+  return result;
+}
+
+Json gridsJson(const gpu_scene::VolumeSet& volumes) {
+  Json result = Json::array();
+  for (const volume::BrickGrid& grid : volumes.grids) {
+    result.push_back({{"name", grid.name},
+                      {"storage", volume::storageName(grid.storage)},
+                      {"active_voxels", grid.activeVoxels},
+                      {"bricks", grid.bricks.size()},
+                      {"bricks_with_voxels", grid.slotCount()},
+                      {"device_bytes", grid.deviceBytes()},
+                      {"worst_voxel_error", grid.report.quantisationError},
+                      {"worst_optical_depth_error", grid.report.opticalDepthError},
+                      {"negative_voxels", grid.report.negativeVoxels},
+                      {"nonfinite_voxels", grid.report.nonFiniteVoxels},
+                      {"notes", grid.report.notes}});
+  }
+  return result;
+}
+
+Json settingsJson(const RenderRecord& record) {
+  const scene::Scene& scene = record.scene;
+  Json settings{{"input", record.request.input},
+                {"size", {scene.film.size.x, scene.film.size.y}},
+                {"samples_limit", scene.render.samples},
+                {"seed", scene.render.seed},
+                {"depth", scene.render.depth},
+                {"tracker", trackerName(record.report.spec)},
+                {"transparent", scene.film.transparent},
+                {"exposure_stops", scene.film.exposure},
+                {"view", scene.film.view == scene::View::Filmic ? "filmic" : "standard"}};
+  if (record.request.seconds) {
+    settings["time_limit_seconds"] = *record.request.seconds;
+  }
+  if (record.request.error) {
+    settings["error_limit"] = *record.request.error;
+  }
+  if (record.request.crop) {
+    const film::Window& crop = *record.request.crop;
+    settings["crop"] = {crop.min.x, crop.min.y, crop.max.x, crop.max.y};
+  }
+  return settings;
+}
+
+std::uint64_t countIn(const film::Metadata& metadata, const std::string& key) {
+  const auto entry = metadata.find(key);
+  std::uint64_t value = 0;
+  if (entry != metadata.end()) {
+    std::from_chars(entry->second.data(), entry->second.data() + entry->second.size(), value);
+  }
+  return value;
+}
+
+} // namespace
+
+std::string statisticsJson(const RenderRecord& record, const film::Metadata& metadata) {
+  const render::RenderReport& report = record.report;
+  const render::TraceTotals& totals = report.totals;
+  Json root;
+  root["version"] = TYNDALL_VERSION;
+  root["device"] = {{"name", record.device.info().name},
+                    {"driver", record.device.info().driver},
+                    {"type", record.device.info().type},
+                    {"memory_bytes", record.device.info().memoryBytes}};
+  root["settings"] = settingsJson(record);
+  root["stopped_by"] = report.stoppedBy;
+  root["seconds"] = {{"start", record.timings.start},
+                     {"load", record.timings.load},
+                     {"upload", record.timings.upload},
+                     {"exposure", record.timings.exposure},
+                     {"compile_and_first_dispatch", report.firstDispatchSeconds},
+                     {"render", report.seconds},
+                     {"write", record.timings.write}};
+  root["samples"] = totals.samples;
+  root["density_lookups"] = totals.lookups;
+  root["segments"] = totals.segments;
+  root["dispatches"] = totals.dispatches;
+  root["pixels"] = {{"media", report.mediaPixels}, {"background_only", report.backgroundPixels}};
+  root["device_bytes"] = {{"planned", record.plannedBytes}, {"peak", record.device.peakBytes()}};
+  root["kernel_bytes"] = report.kernelBytes;
+  root["grids"] = gridsJson(record.volumes);
+  root["pipeline"] = features(report.spec);
+  root["counters"] = {{"nonfinite_samples", totals.nonFinite},
+                      {"majorant_exceeded", totals.majorantExceeded},
+                      {"negative_samples", totals.negative},
+                      {"resumed_tracks", totals.resumed}};
+  root["error"] = {{"relative", finiteOrNull(record.error.relative)},
+                   {"upper_bound_90_percent", finiteOrNull(record.error.upper)},
+                   {"covered_pixels", record.error.coveredPixels}};
+  root["png"] = {{"clipped_share", record.png.clippedShare}, {"nonfinite_pixels", record.png.nonFinitePixels}};
+  root["notes"] = record.notes;
+  root["metadata"] = metadata;
+  return root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+film::Metadata pictureMetadata(const RenderRecord& record, const film::Metadata& earlier) {
+  film::Metadata metadata;
+  const render::TraceTotals& totals = record.report.totals;
+  const auto count = [&](const char* name, std::uint64_t value) {
+    const std::string key = std::string(film::kCountPrefix) + name;
+    metadata[key] = std::to_string(countIn(earlier, key) + value);
+  };
+  count("nonFinite", totals.nonFinite);
+  count("majorantExceeded", totals.majorantExceeded);
+  count("negative", totals.negative);
+  count("samples", totals.samples);
+  count("lookups", totals.lookups);
+  count("segments", totals.segments);
+  metadata["input"] = record.request.input;
+  metadata["scene.name"] = record.scene.name;
+  metadata["depth"] = std::to_string(record.scene.render.depth);
+  metadata["tracker"] = trackerName(record.report.spec);
+  metadata["stop.reason"] = record.report.stoppedBy;
+  metadata["stop.samples"] = std::to_string(record.scene.render.samples);
+  metadata["error.relative"] = fmt::format("{:.6g}", record.error.relative);
+  metadata["error.upper"] = fmt::format("{:.6g}", record.error.upper);
+  for (const volume::BrickGrid& grid : record.volumes.grids) {
+    metadata["grid." + grid.name + ".storage"] = volume::storageName(grid.storage);
+  }
+  return metadata;
+}
+
+} // namespace tyndall::app

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/error.h"
+#include "passes/bench/bench_io.h"
+#include "render/pixel_order.h"
+#include "render/renderer.h"
+#include "volume/depth.h"
+#include "volume/load.h"
+
+#include "kernels/bare_lookup.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <functional>
+
+/// Lookups, shadow rays and samples per second on one volume under a sun; lookups per camera path beside those of one
+/// global majorant; and the bare lookup kernel as the ceiling. Configurations run in turn, medians are printed.
+namespace tyndall::bench {
+namespace {
+
+struct Options {
+  std::string volume;
+  std::uint32_t size = 512;
+  std::uint32_t repeats = 5;
+  double opticalDepth = 5.0;
+  std::string device;
+};
+
+struct Figures {
+  double seconds = 0.0;
+  render::TraceTotals totals;
+  std::size_t pixels = 0;
+};
+
+double secondsOf(const std::function<void()>& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+  return values[values.size() / 2];
+}
+
+/// The volume seen from the front, filling the picture, under one sun.
+scene::Scene sunScene(const Options& options, const volume::BrickGrid& grid) {
+  const Bounds3 bounds = grid.worldBounds();
+  const double radius = 0.5 * glm::length(bounds.size());
+  scene::Scene scene;
+  scene.film.size = glm::uvec2(options.size);
+  scene.camera.target = bounds.centre();
+  scene.camera.position = bounds.centre() + glm::dvec3(0.0, 0.0, 3.0 * radius);
+  scene.camera.verticalFov = 30.0;
+  scene::Medium medium;
+  medium.file = options.volume;
+  medium.grid = grid.name;
+  medium.albedo = glm::dvec3(0.9);
+  medium.densityScale = options.opticalDepth / volume::medianOpticalDepth(grid, 4096);
+  medium.phase.id = PhaseId::HenyeyGreenstein;
+  medium.phase.parameters[0] = 0.3;
+  scene.media.push_back(medium);
+  scene::SunLight sun;
+  sun.direction = glm::normalize(glm::dvec3(-0.5, -0.7, -0.5));
+  sun.angularDiameter = 0.0;
+  scene.lights.push_back({"sun", sun, false});
+  return scene;
+}
+
+gpu_scene::VolumeSet volumesOf(volume::BrickGrid grid) {
+  gpu_scene::VolumeSet set;
+  set.grids.push_back(std::move(grid));
+  set.uses.push_back({std::size_t{0}, std::nullopt});
+  return set;
+}
+
+/// The same grid with one majorant everywhere: what trackers without a hierarchy use.
+volume::BrickGrid withGlobalMajorant(volume::BrickGrid grid) {
+  const float maximum = grid.maximum();
+  for (volume::Range& range : grid.ranges) {
+    range.max = maximum;
+  }
+  std::fill(grid.coarseMax.begin(), grid.coarseMax.end(), maximum);
+  return grid;
+}
+
+Figures renderOnce(const gpu::Device& device, const scene::Scene& scene, const gpu_scene::VolumeSet& volumes,
+                   const gpu_scene::GpuScene& gpuScene, std::uint32_t samples, bool delta) {
+  render::RenderOptions options;
+  options.stop.samples = samples;
+  options.tracer.deltaTracking = delta;
+  render::RenderReport report;
+  Figures figures;
+  figures.seconds = secondsOf([&] { render::renderFilm(device, scene, volumes, gpuScene, options, report); });
+  figures.totals = report.totals;
+  figures.pixels = report.mediaPixels;
+  return figures;
+}
+
+void printRow(const char* name, const std::vector<Figures>& runs) {
+  std::vector<double> seconds;
+  for (const Figures& run : runs) {
+    seconds.push_back(run.seconds);
+  }
+  const double time = median(seconds);
+  const Figures& run = runs.front();
+  const double samples = double(run.totals.samples);
+  fmt::print("{:<28} {:>9.3f} {:>11.2f} {:>11.2f} {:>13.2f} {:>14.2f}\n", name, time, samples / time * 1e-6,
+             double(run.totals.lookups) / time * 1e-6, double(run.totals.segments) / time * 1e-6, double(run.totals.lookups) / samples);
+}
+
+double bareLookups(const gpu::Device& device, const gpu_scene::GpuScene& gpuScene, const Options& options, double meanStep) {
+  const std::array spec{gpu::SpecEntry{0, gpuScene.features().formatMask}};
+  const gpu::Kernel kernel(device, k_bare_lookup_spirv, spec, gpuScene.images());
+  const std::vector<std::uint32_t> order = render::dispatchOrder({glm::uvec2(0), glm::uvec2(options.size)});
+  const gpu::Buffer<std::uint32_t> pixels(device, std::span<const std::uint32_t>(order), gpu::Memory::Host);
+  const gpu::Buffer<float> sums(device, order.size(), gpu::Memory::Host);
+  constexpr std::uint32_t kLookups = 64;
+  const interop::BareLookupInputs inputs{gpuScene.ptr(), pixels.ptr(), sums.ptr(), static_cast<std::uint32_t>(order.size()), kLookups, static_cast<float>(meanStep)};
+  kernel.run(inputs, inputs.count);
+  std::vector<double> seconds;
+  for (std::uint32_t i = 0; i < options.repeats; ++i) {
+    seconds.push_back(secondsOf([&] { kernel.run(inputs, inputs.count); }));
+  }
+  const auto hits = std::count_if(sums.mapped().begin(), sums.mapped().end(), [](float sum) { return sum != 0.0f; });
+  return double(hits) * kLookups / median(seconds);
+}
+
+int run(const Options& options) {
+  const gpu::Device device({.select = options.device, .validation = false, .pipelineCache = {}});
+  volume::BrickGrid grid;
+  const double loadSeconds = secondsOf([&] { grid = volume::loadGrid(options.volume, {}); });
+  const scene::Scene scene = sunScene(options, grid);
+  const gpu_scene::VolumeSet global = volumesOf(withGlobalMajorant(grid));
+  const gpu_scene::VolumeSet local = volumesOf(std::move(grid));
+  const gpu_scene::GpuScene localScene(device, scene, local);
+  const gpu_scene::GpuScene globalScene(device, scene, global);
+  fmt::print("{} on {}\n{} at {}x{}, load {:.3f} s, {} active voxels as {}, median optical depth {}\n\n", device.info().name, device.info().driver,
+             options.volume, options.size, options.size, loadSeconds, local.grids[0].activeVoxels, volume::storageName(local.grids[0].storage), options.opticalDepth);
+  std::array<std::vector<Figures>, 3> runs;
+  constexpr std::uint32_t kSamples = 2 * film::kBatchSamples;
+  for (std::uint32_t i = 0; i <= options.repeats; ++i) { // the first round compiles and is dropped
+    runs[0].push_back(renderOnce(device, scene, local, localScene, kSamples, false));
+    runs[1].push_back(renderOnce(device, scene, local, localScene, kSamples, true));
+    runs[2].push_back(renderOnce(device, scene, global, globalScene, kSamples, true));
+  }
+  for (std::vector<Figures>& each : runs) {
+    each.erase(each.begin());
+  }
+  fmt::print("{:<28} {:>9} {:>11} {:>11} {:>13} {:>14}\n", "", "seconds", "Msamples/s", "Mlookups/s", "Msegments/s", "lookups/sample");
+  printRow("weighted walk, majorant grid", runs[0]);
+  printRow("delta tracking, majorant grid", runs[1]);
+  printRow("delta tracking, one majorant", runs[2]);
+  const double ceiling = bareLookups(device, localScene, options, 8.0);
+  fmt::print("\nbare lookups along the camera rays: {:.1f} M/s\n", ceiling * 1e-6);
+  fmt::print("lookups per sample, majorant grid over one majorant: {:.3f}\n", double(runs[1][0].totals.lookups) / double(runs[2][0].totals.lookups));
+  return 0;
+}
+
+} // namespace
+} // namespace tyndall::bench
+
+int main(int argc, char** argv) {
+  tyndall::bench::Options options;
+  CLI::App app("Speed of tracking on one volume under a sun");
+  app.add_option("volume", options.volume, "A .vdb file")->required();
+  app.add_option("--size", options.size, "Picture edge, pixels");
+  app.add_option("--repeats", options.repeats, "Timed rounds");
+  app.add_option("--optical-depth", options.opticalDepth, "Median optical depth");
+  app.add_option("--device", options.device, "Index or part of the name");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    return tyndall::bench::run(options);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+}

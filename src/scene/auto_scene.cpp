@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/auto_scene.h"
+
+#include "light/atmosphere.h"
+#include "math/colour.h"
+#include "scene/auto_framing.h"
+#include "volume/depth.h"
+
+#include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+namespace tyndall::scene {
+namespace {
+
+constexpr unsigned kDepthLines = 400;
+constexpr double kCameraAzimuth = 32.0;   // degrees from +z towards +x: a three-quarter view
+constexpr double kCameraElevation = -4.0; // a little from below: the subject stands against the sky
+constexpr double kSunAzimuth = 55.0;      // degrees from the camera's, over the viewer's left shoulder
+constexpr double kSunElevation = 35.0;
+constexpr double kTurbidity = 2.5;
+constexpr double kSun = 30.0;             // W/m2 above the atmosphere
+constexpr double kSky = 8.0;              // lower than the sun's: single scattering leaves the subject too dark
+constexpr double kDusk = 0.12;            // of both, when the subject glows itself
+constexpr double kGlow = 1.2;             // luminance of the stronger glowing rays, W/(m2 sr)
+constexpr double kColdestGlow = 500.0;    // a maximum below cannot be kelvin that glow
+constexpr double kMappedMaximum = 2000.0; // kelvin
+
+glm::dvec3 directionFrom(double azimuthDegrees, double elevationDegrees) {
+  const double azimuth = glm::radians(azimuthDegrees);
+  const double elevation = glm::radians(elevationDegrees);
+  return {std::sin(azimuth) * std::cos(elevation), std::sin(elevation), std::cos(azimuth) * std::cos(elevation)};
+}
+
+bool nameHas(const AutoInput& input, std::initializer_list<const char*> words) {
+  std::string names = std::filesystem::path(input.file).filename().string() + " " + input.grids.density;
+  std::transform(names.begin(), names.end(), names.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return std::any_of(words.begin(), words.end(),
+                     [&](const char* word) { return names.find(word) != std::string::npos; });
+}
+
+bool holdsSomething(const volume::BrickGrid* grid) {
+  return grid != nullptr && !grid->empty() && grid->maximum() > 0.0f;
+}
+
+Medium makeMedium(const AutoInput& input) {
+  Medium medium;
+  medium.name = "volume";
+  medium.file = input.file;
+  medium.grid = input.grids.density.empty() ? "none" : input.grids.density;
+  if (input.up == UpAxis::Z) {
+    medium.worldFromMedium = glm::rotate(glm::dmat4(1.0), glm::radians(-90.0), glm::dvec3(1.0, 0.0, 0.0));
+  }
+  const bool smoke = nameHas(input, {"smoke", "soot"});
+  medium.albedo = smoke ? glm::dvec3(0.86, 0.85, 0.84) : glm::dvec3(0.99);
+  medium.phase.id = PhaseId::TwoLobe;
+  medium.phase.parameters = {0.6, -0.3, 0.6, 0.0};
+  return medium;
+}
+
+/// Scales the density; fills in the frame that decides.
+void scaleDensity(const AutoInput& input, AutoScene& result) {
+  double densest = 0.0;
+  for (std::size_t i = 0; i < input.frames.size(); ++i) {
+    const double median =
+        holdsSomething(input.frames[i].density) ? volume::medianOpticalDepth(*input.frames[i].density, kDepthLines) : 0.0;
+    if (median > densest) {
+      densest = median;
+      result.densestFrame = i;
+    }
+  }
+  Medium& medium = result.scene.media.front();
+  if (densest > 0.0) {
+    medium.densityScale = input.opticalDepth / densest;
+  }
+  medium.densityScale = input.densityScale.value_or(medium.densityScale);
+  result.medianOpticalDepth = densest * medium.densityScale;
+  if (densest > 0.0) {
+    result.notes.push_back(fmt::format("median optical depth {:.3g} at density scale {:.4g} (override with --density-scale)",
+                                       result.medianOpticalDepth, medium.densityScale));
+  }
+}
+
+/// Kelvin from the temperature grid's values: one mapping for all frames, so that a sequence does not flicker.
+void addEmission(const AutoInput& input, AutoScene& result) {
+  double hottest = 0.0;
+  for (const AutoFrame& frame : input.frames) {
+    hottest = std::max(hottest, holdsSomething(frame.temperature) ? double(frame.temperature->maximum()) : 0.0);
+  }
+  if (hottest <= 0.0) {
+    return;
+  }
+  Emission emission;
+  emission.kind = Emission::Kind::Blackbody;
+  emission.grid = input.grids.temperature;
+  if (hottest < kColdestGlow) {
+    emission.temperatureScale = kMappedMaximum / hottest;
+    result.notes.push_back(fmt::format("grid '{}' is not in kelvin (maximum {:.4g}): its maximum is taken as {:.0f} K "
+                                       "(override with --set media.0.emission.temperature_scale=...)",
+                                       emission.grid, hottest, kMappedMaximum));
+  }
+  result.scene.media.front().emission = emission;
+}
+
+std::vector<VisibleVolume> visibleVolumes(const AutoInput& input, const Medium& medium) {
+  std::vector<VisibleVolume> volumes;
+  for (const AutoFrame& frame : input.frames) {
+    VisibleVolume volume;
+    volume.density = holdsSomething(frame.density) ? frame.density : nullptr;
+    volume.temperature = medium.emission && holdsSomething(frame.temperature) ? frame.temperature : nullptr;
+    volume.worldFromMedium = medium.worldFromMedium;
+    volume.densityScale = medium.densityScale;
+    if (volume.temperature != nullptr) {
+      volume.glow = glowTable(medium.emission->temperatureScale, double(volume.temperature->maximum()));
+    }
+    volumes.push_back(volume);
+  }
+  return volumes;
+}
+
+/// The emission scale at which the stronger rays of the picture (the brightest tenth of those that glow) get the
+/// luminance kGlow.
+double glowScale(const std::vector<VisibleVolume>& volumes, const Camera& camera) {
+  constexpr int kEdge = 32;
+  const glm::dvec3 forward = glm::normalize(camera.target - camera.position);
+  const glm::dvec3 right = glm::normalize(glm::cross(forward, camera.up));
+  const glm::dvec3 up = glm::cross(right, forward);
+  const double half = std::tan(glm::radians(0.5 * camera.verticalFov));
+  std::vector<double> glows;
+  for (const VisibleVolume& volume : volumes) {
+    for (int i = 0; i < kEdge * kEdge; ++i) {
+      const glm::dvec2 place = half * ((glm::dvec2(i % kEdge, i / kEdge) + 0.5) * (2.0 / kEdge) - 1.0);
+      const double glow =
+          glowAlong(volume, camera.position, glm::normalize(forward + place.x * right + place.y * up));
+      if (glow > 0.0) {
+        glows.push_back(glow);
+      }
+    }
+  }
+  if (glows.empty()) {
+    return 1.0;
+  }
+  const auto strong = glows.begin() + static_cast<std::ptrdiff_t>(0.9 * double(glows.size() - 1));
+  std::nth_element(glows.begin(), strong, glows.end());
+  return *strong > 0.0 ? kGlow / *strong : 1.0;
+}
+
+std::vector<NamedLight> makeLights(bool glows) {
+  const glm::dvec3 toSun = directionFrom(kCameraAzimuth - kSunAzimuth, kSunElevation);
+  const double strength = glows ? kDusk : 1.0;
+  SunLight sun;
+  sun.direction = -toSun;
+  sun.irradiance = strength * kSun *
+                   light::Atmosphere(kTurbidity).sunTransmittance(light::Atmosphere::kGroundRadius + 0.2, toSun.y);
+  SkyEnvironment sky;
+  sky.sunDirection = -toSun;
+  sky.turbidity = kTurbidity;
+  sky.scale = strength * kSky;
+  return {{"sun", sun, false}, {"sky", sky, true}};
+}
+
+} // namespace
+
+AutoScene makeAutoScene(const AutoInput& input) {
+  AutoScene result;
+  Scene& scene = result.scene;
+  scene.name = std::filesystem::path(input.file).stem().string();
+  scene.film.size = input.size;
+  scene.film.view = View::Filmic;
+  scene.film.transparent = true;
+  scene.media.push_back(makeMedium(input));
+  scaleDensity(input, result);
+  addEmission(input, result);
+
+  const glm::dvec3 toCamera = directionFrom(kCameraAzimuth, kCameraElevation);
+  const std::vector<VisibleVolume> volumes = visibleVolumes(input, scene.media.front());
+  if (const std::optional<Camera> camera = frameSubject({volumes, toCamera, input.size})) {
+    scene.camera = *camera;
+  } else {
+    result.empty = true;
+    scene.camera.position = scene.camera.target + 5.0 * toCamera;
+  }
+  if (std::optional<Emission>& emission = scene.media.front().emission) {
+    emission->scale = glowScale(volumes, scene.camera);
+  }
+  scene.lights = makeLights(scene.media.front().emission.has_value());
+  return result;
+}
+
+} // namespace tyndall::scene

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lights at infinity (validation.md A14): environments, suns with a diameter, maps; all by MIS.
+#include "film/exr.h"
+#include "support/oracle_radiance.h"
+#include "support/render_fixture.h"
+#include "support/render_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <unistd.h>
+
+namespace tyndall::test {
+namespace {
+
+using std::numbers::pi;
+
+/// A sphere of radius 1 that fills the picture.
+TestScene sphereView(double g) {
+  TestScene test({8, 8});
+  test.orthographic({0.0, 0.0, 5.0}, {0.0, 0.0, 0.0}, 1.2);
+  test.sphere(glm::dvec3(0.0), 1.0, 1.1, 0.7).phase = henyeyGreenstein(g);
+  return test;
+}
+
+Moments render(const TestScene& test, std::uint32_t bug = interop::kBugNone, std::uint32_t replicates = 64) {
+  MomentOptions options{.replicates = replicates};
+  options.tracer.plantedBug = bug;
+  return renderMoments(test.scene, test.volumes, options);
+}
+
+TEST(ConstantEnvironment, SphereAgreesWithQuadrature) {
+  for (const double g : {0.0, 0.6}) {
+    TestScene test = sphereView(g);
+    test.constant(2.0);
+    const OracleScene oracle(test.scene, test.volumes, {.relative = 1e-6, .polarNodes = 20, .azimuths = 16});
+    const auto reference = oracle.picture([&](const OracleRay& ray) { return oracle.total(ray); }, 3);
+    const Moments moments = render(test);
+    EXPECT_AGREES(imageTest(moments, meanOf(reference), 0, 1e-4)) << "\ng " << g;
+    EXPECT_AGREES(pixelTest(moments, reference, 0, 1e-4)) << "\ng " << g;
+    EXPECT_DIFFERS(imageTest(render(test, interop::kBugBranchPdf), meanOf(reference), 0, 1e-4)) << "\ng " << g;
+  }
+}
+
+TEST(ConstantEnvironment, HiddenFromTheCameraStillLights) {
+  TestScene test = sphereView(0.0);
+  test.constant(2.0, false);
+  const OracleScene oracle(test.scene, test.volumes, {.relative = 1e-6, .polarNodes = 20, .azimuths = 16});
+  const auto reference = oracle.picture([&](const OracleRay& ray) { return oracle.radiance(ray); }, 3);
+  EXPECT_AGREES(imageTest(render(test), meanOf(reference), 0, 1e-4));
+}
+
+TEST(ConstantEnvironment, GridAgreesWithQuadrature) {
+  TestScene test({4, 4});
+  test.orthographic({0.0, 0.0, 5.0}, {0.0, 0.0, 0.0}, 1.0);
+  test.grid(constantGrid(6, glm::dvec3(-0.7), glm::dvec3(0.7), 1.0), 1.0, 0.7).phase = henyeyGreenstein(0.4);
+  test.constant(1.0);
+  // Kinks of the box leave 1e-3 to this rule of directions.
+  const OracleScene oracle(test.scene, test.volumes, {.relative = 1e-4, .polarNodes = 32, .azimuths = 32});
+  const auto reference = oracle.picture([&](const OracleRay& ray) { return oracle.total(ray); }, 1);
+  for (const bool delta : {false, true}) {
+    MomentOptions options{.replicates = 64};
+    options.tracer.deltaTracking = delta;
+    EXPECT_AGREES(imageTest(renderMoments(test.scene, test.volumes, options), meanOf(reference), 0, 2e-3)) << delta;
+  }
+}
+
+TEST(Sun, DiscsAgreeWithQuadrature) {
+  for (const double diameter : {0.5, 10.0}) {
+    for (const double g : {0.0, 0.95}) {
+      TestScene test = sphereView(g);
+      test.sun({0.1, -0.2, 1.0}, 3.0, diameter); // 13 degrees from straight on: the phase function's peak matters
+      const OracleScene oracle(test.scene, test.volumes, {.relative = 1e-7});
+      const auto reference = oracle.picture([&](const OracleRay& ray) { return oracle.radiance(ray); }, 4);
+      EXPECT_AGREES(imageTest(render(test), meanOf(reference), 0, 5e-4)) << diameter << " g " << g;
+      EXPECT_DIFFERS(imageTest(render(test, interop::kBugBranchPdf), meanOf(reference), 0, 5e-4)) << diameter << " g " << g;
+    }
+  }
+}
+
+/// A map with one bright texel is a small sun: bilinear lookups make it a tent of two texels' width whose integral is
+/// the texel's solid angle.
+TEST(MapEnvironment, OneBrightTexelIsADirectionalLight) {
+  constexpr glm::uvec2 kSize{512, 256};
+  constexpr glm::uvec2 kTexel{300, 90};
+  const auto file = std::filesystem::temp_directory_path() / fmt::format("tyndall-texel-{}.exr", ::getpid());
+  film::Image image;
+  image.displaySize = kSize;
+  image.window = {glm::uvec2(0), kSize};
+  for (const char* channel : {"R", "G", "B"}) {
+    image.channels[channel].assign(std::size_t(kSize.x) * kSize.y, 0.0f);
+    image.channels[channel][kTexel.y * kSize.x + kTexel.x] = 1e4f;
+  }
+  film::writeExr(file, image);
+  TestScene test = sphereView(0.5);
+  test.scene.lights.push_back({"map", scene::MapEnvironment{file.string(), 2.0, 0.0}, false});
+  const Moments moments = render(test);
+  const Moments broken = render(test, interop::kBugBranchPdf);
+  std::filesystem::remove(file);
+
+  const double polar = pi * (kTexel.y + 0.5) / kSize.y;
+  const double azimuth = 2.0 * pi * ((kTexel.x + 0.5) / kSize.x - 0.5); // from -z towards +x
+  const glm::dvec3 toLight(std::sin(polar) * std::sin(azimuth), std::cos(polar), -std::sin(polar) * std::cos(azimuth));
+  const double solidAngle = 2.0 * pi / kSize.x * pi / kSize.y * std::sin(polar);
+  TestScene sun = sphereView(0.5);
+  sun.sun(-toLight, 2.0 * 1e4 * solidAngle);
+  const OracleScene oracle(sun.scene, sun.volumes);
+  const auto reference = oracle.picture([&](const OracleRay& ray) { return oracle.radiance(ray); }, 4);
+  EXPECT_AGREES(imageTest(moments, meanOf(reference), 0, 1e-3)); // 1e-3: the tent is 1.4 degrees wide
+  EXPECT_AGREES(pixelTest(moments, reference, 0, 3e-3));
+  EXPECT_DIFFERS(imageTest(broken, meanOf(reference), 0, 1e-3));
+}
+
+/// Colours and many lights of every kind together, light selection included.
+TEST(ManyLights, OfEveryKindAgreeWithQuadrature) {
+  TestScene test({6, 6});
+  test.perspective({0.0, 0.0, 4.0}, {0.0, 0.0, 0.0}, 30.0);
+  test.sphere({0.2, 0.1, 0.0}, 1.4, 0.6, 1.0).phase = henyeyGreenstein(0.3);
+  test.scene.media[0].albedo = {0.9, 0.5, 0.1};
+  test.point({2.0, 0.0, 1.0}, 3.0);
+  test.point({0.1, -0.3, 0.2}, 0.02);
+  test.sun({0.0, -1.0, 0.2}, 0.5);
+  test.sun({1.0, -0.3, 0.4}, 0.7, 6.0);
+  test.constant(0.1);
+  std::get<scene::PointLight>(test.scene.lights[0].light).intensity = {3.0, 1.0, 0.0};
+  const OracleScene oracle(test.scene, test.volumes, {.relative = 1e-6, .polarNodes = 16, .azimuths = 12});
+  const Moments moments = render(test, interop::kBugNone, 128);
+  for (int channel = 0; channel < 3; ++channel) {
+    const auto reference = oracle.picture([&](const OracleRay& ray) { return oracle.total(ray, channel); }, 4);
+    EXPECT_AGREES(imageTest(moments, meanOf(reference), channel, 3e-4)) << channel;
+    EXPECT_DIFFERS(imageTest(moments, 1.03 * meanOf(reference), channel, 3e-4)) << channel; // planted: 3 % off
+  }
+}
+
+} // namespace
+} // namespace tyndall::test

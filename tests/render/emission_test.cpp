@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// Emission (validation.md A13): slabs, the isothermal cavity, heat without density, a steep temperature ramp.
+#include "light/blackbody.h"
+#include "support/oracle_radiance.h"
+#include "support/render_fixture.h"
+#include "support/render_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace tyndall::test {
+namespace {
+
+/// An orthographic view along -z whose pixels all look through the middle of [-1, 1]^3.
+TestScene view() {
+  TestScene test({8, 8});
+  test.orthographic({0.0, 0.0, 5.0}, {0.0, 0.0, 0.0}, 0.5);
+  return test;
+}
+
+scene::Emission linear(double j, bool tied = false) {
+  scene::Emission emission;
+  emission.scale = j;
+  emission.colour = {1.0, 0.5, 0.25};
+  emission.tiedToAbsorption = tied;
+  return emission;
+}
+
+scene::Emission blackbody(double scale) {
+  scene::Emission emission;
+  emission.kind = scene::Emission::Kind::Blackbody;
+  emission.scale = scale;
+  return emission;
+}
+
+TEST(EmissiveSlab, HomogeneousHasTheClosedForm) {
+  for (const double sigmaT : {0.0, 1e-6, 0.5, 20.0}) {
+    TestScene test = view();
+    test.box(glm::dvec3(-1.0), glm::dvec3(1.0), sigmaT, 0.0).emission = linear(3.0);
+    const double length = sigmaT > 0.0 ? -std::expm1(-2.0 * sigmaT) / sigmaT : 2.0;
+    const Moments moments = renderMoments(test.scene, test.volumes, {.replicates = 8});
+    EXPECT_AGREES(imageTest(moments, 3.0 * length, 0)) << sigmaT;
+    EXPECT_AGREES(imageTest(moments, 1.5 * length, 1)) << sigmaT;
+    EXPECT_AGREES(imageTest(moments, 0.75 * length, 2)) << sigmaT;
+    EXPECT_DIFFERS(imageTest(moments, 3.01 * length, 0)) << sigmaT; // planted: 0.3 % off
+  }
+}
+
+/// Cut in two, a slab shines through the other half.
+TEST(EmissiveSlab, TwoHomogeneousHalvesAddUp) {
+  TestScene test = view();
+  test.box(glm::dvec3(-1.0), {1.0, 1.0, 0.2}, 0.7, 0.0).emission = linear(3.0);
+  test.box({-1.0, -1.0, 0.2}, glm::dvec3(1.0), 0.7, 0.0).emission = linear(3.0);
+  EXPECT_AGREES(imageTest(renderMoments(test.scene, test.volumes), 3.0 * -std::expm1(-1.4) / 0.7));
+}
+
+/// Emission and density of their own grids against quadrature, scattering in between, with both trackers.
+TEST(EmissiveGrid, AgreesWithQuadrature) {
+  for (const bool tied : {false, true}) {
+    TestScene test = view();
+    test.grid(constantGrid(12, glm::dvec3(-0.9), glm::dvec3(0.9), 1.0), 0.8, 0.3);
+    const auto glow = [](const glm::ivec3& index) { return 0.2 + 0.1 * index.z + 0.05 * index.x; };
+    const volume::BrickGrid shape = constantGrid(9, glm::dvec3(-1.3), glm::dvec3(1.2), 1.0);
+    test.emissionGrid(gridOf(glm::ivec3(9), glm::ivec3(0), shape.worldFromIndex, glow), linear(2.0, tied));
+    test.sun({0.1, -1.0, -0.5}, 1.0);
+    const OracleScene oracle(test.scene, test.volumes, {.relative = 1e-6});
+    const auto reference = oracle.picture([&](const OracleRay& ray) { return oracle.radiance(ray); }, 4);
+    for (const bool delta : {false, true}) {
+      MomentOptions options{.replicates = 64};
+      options.tracer.deltaTracking = delta;
+      const Moments moments = renderMoments(test.scene, test.volumes, options);
+      EXPECT_AGREES(imageTest(moments, meanOf(reference), 0, 1e-4)) << "tied " << tied << " delta " << delta;
+      EXPECT_AGREES(pixelTest(moments, reference, 0, 1e-4)) << "tied " << tied << " delta " << delta;
+      MomentOptions bad = options;
+      bad.tracer.plantedBug = interop::kBugHalfVoxel; // shifts the density against the emission
+      EXPECT_DIFFERS(imageTest(renderMoments(test.scene, test.volumes, bad), meanOf(reference), 0, 1e-4));
+    }
+  }
+}
+
+/// Kirchhoff: emission tied to absorption, opaque and of one temperature, is the blackbody's radiance everywhere.
+TEST(IsothermalCavity, HasTheRadianceOfABlackbody) {
+  constexpr double kKelvin = 2400.0;
+  const glm::dvec3 expected = light::blackbodyRadiance(kKelvin);
+  TestScene homogeneous = view();
+  scene::Emission emission = blackbody(1.0);
+  emission.temperature = kKelvin;
+  emission.tiedToAbsorption = true;
+  homogeneous.box(glm::dvec3(-1.0), glm::dvec3(1.0), 40.0, 0.4).emission = emission;
+  // A grid of heat that is larger than the grid of density, so that all of what absorbs has the temperature.
+  TestScene grids = view();
+  grids.grid(constantGrid(12, glm::dvec3(-0.9), glm::dvec3(0.9), 1.0), 8.0, 0.0);
+  grids.emissionGrid(constantGrid(5, glm::dvec3(-2.0), glm::dvec3(2.0), kKelvin), emission);
+  for (int channel = 0; channel < 3; ++channel) {
+    // The homogeneous box scatters 40 % away: what it emits is (1 - albedo) B.
+    EXPECT_AGREES(imageTest(renderMoments(homogeneous.scene, homogeneous.volumes), 0.6 * expected[channel], channel, 1e-3)) << channel;
+    // 1e-3: the stated error of the blackbody table.
+    const Moments moments = renderMoments(grids.scene, grids.volumes, {.replicates = 128});
+    EXPECT_AGREES(imageTest(moments, expected[channel], channel, 1e-3)) << channel;
+    EXPECT_DIFFERS(imageTest(moments, 1.05 * expected[channel], channel, 1e-3)) << channel; // planted: 5 % off
+  }
+}
+
+TEST(Heat, GlowsWhereThereIsNoDensity) {
+  TestScene test = view();
+  const volume::BrickGrid density = constantGrid(6, {-0.5, -0.5, -3.0}, {0.5, 0.5, -2.0}, 1.0);
+  test.grid(density, 0.5, 0.0);
+  test.emissionGrid(constantGrid(6, glm::dvec3(-0.5), glm::dvec3(0.5), 1.0), linear(1.0));
+  // Trapezoid: 1 unit inside and half a voxel (0.1) on either side; the density lies behind it.
+  const Moments moments = renderMoments(test.scene, test.volumes);
+  EXPECT_AGREES(imageTest(moments, 1.2));
+  TestScene alone = view(); // "none": no density at all
+  alone.grid(density);
+  alone.volumes.uses[0].density.reset();
+  alone.emissionGrid(constantGrid(6, glm::dvec3(-0.5), glm::dvec3(0.5), 1.0), linear(1.0));
+  EXPECT_AGREES(imageTest(renderMoments(alone.scene, alone.volumes), 1.2));
+  EXPECT_DIFFERS(imageTest(moments, 1.19)); // planted
+}
+
+/// Planck's law is not linear: the temperature must be interpolated before it.
+TEST(TemperatureRamp, IsInterpolatedBeforePlanck) {
+  TestScene test = view();
+  const volume::BrickGrid shape = constantGrid(5, glm::dvec3(-1.0), glm::dvec3(1.0), 1.0);
+  test.grid(shape, 0.1, 0.0);
+  const auto kelvin = [](const glm::ivec3& index) { return 700.0 + 500.0 * index.z; };
+  scene::Emission emission = blackbody(1.0);
+  test.emissionGrid(gridOf(glm::ivec3(5), glm::ivec3(0), shape.worldFromIndex, kelvin), emission);
+  const OracleScene oracle(test.scene, test.volumes, {.relative = 1e-6});
+  const auto reference = oracle.picture([&](const OracleRay& ray) { return oracle.radiance(ray); }, 2);
+  EXPECT_AGREES(imageTest(renderMoments(test.scene, test.volumes, {.replicates = 64}), meanOf(reference), 0, 1e-3));
+  MomentOptions bad{.replicates = 64};
+  bad.tracer.plantedBug = interop::kBugOneTapBlackbody;
+  EXPECT_DIFFERS(imageTest(renderMoments(test.scene, test.volumes, bad), meanOf(reference), 0, 1e-3));
+}
+
+} // namespace
+} // namespace tyndall::test

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a picture says about its own error: standard errors against the spread over seeds, stopping by error.
+#include "render/film_fixture.h"
+#include "support/render_fixture.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace tyndall::test {
+namespace {
+
+TestScene puff() {
+  TestScene test({12, 12});
+  test.perspective({0.0, 0.0, 4.0}, {0.0, 0.0, 0.0}, 40.0);
+  test.grid(constantGrid(9, glm::dvec3(-0.8), glm::dvec3(0.8), 1.0), 1.5, 0.9).phase = henyeyGreenstein(0.5);
+  test.sun({0.3, -1.0, -0.5}, 1.0, 2.0);
+  test.point({1.3, 0.9, 0.4}, 1.0);
+  return test;
+}
+
+TestScene fog() {
+  TestScene test({12, 12});
+  test.perspective({0.0, 0.0, 4.0}, {0.0, 0.0, 0.0}, 40.0);
+  test.sphere(glm::dvec3(0.0), 1.0, 1.0, 0.9);
+  test.point({0.3, 0.2, 0.4}, 1.0);
+  test.constant(0.3);
+  return test;
+}
+
+/// sqrt of the mean reported variance, and of the mean variance over seeds: both over covered pixels and colours.
+std::pair<double, double> reportedAndTrue(const TestScene& test, std::uint32_t samples) {
+  constexpr int kSeeds = 50;
+  std::vector<std::vector<double>> values(std::size_t(test.scene.film.size.x) * test.scene.film.size.y);
+  double reported = 0.0;
+  for (std::uint32_t seed = 0; seed < kSeeds; ++seed) {
+    render::RenderOptions options;
+    options.seed = seed;
+    options.stop.samples = samples;
+    const film::Film film = renderFilm(test, options);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      values[i].push_back(film.mean(i, film::R));
+      reported += film.varianceOfMean(i, film::R) / kSeeds;
+    }
+  }
+  double spread = 0.0;
+  for (const std::vector<double>& pixel : values) {
+    spread += film::summarise(pixel).variance;
+  }
+  return {std::sqrt(reported), std::sqrt(spread)};
+}
+
+TEST(ErrorBars, AgreeWithTheSpreadOfFiftySeeds) {
+  for (const TestScene& test : {puff(), fog()}) {
+    const auto [reported, spread] = reportedAndTrue(test, 128);
+    EXPECT_NEAR(reported / spread, 1.0, 0.1);
+  }
+}
+
+/// Stopped by error: the true error is below the target in 90 % of runs, and the mean over runs is that of runs of
+/// fixed length.
+TEST(StoppingByError, KeepsItsPromiseWithoutBias) {
+  const TestScene test = puff();
+  const std::size_t count = std::size_t(test.scene.film.size.x) * test.scene.film.size.y;
+  const Moments truth = renderMoments(test.scene, test.volumes, {.replicates = 64, .samples = 256, .firstSeed = 900000});
+  constexpr double kTarget = 0.05;
+  const int runs = 40 * static_cast<int>(effort());
+  int kept = 0;
+  int byError = 0;
+  std::vector<double> means;
+  for (int run = 0; run < runs; ++run) {
+    render::RenderOptions options;
+    options.seed = static_cast<std::uint32_t>(run);
+    options.stop.samples = 1u << 14;
+    options.stop.error = kTarget;
+    render::RenderReport report;
+    const film::Film film = renderFilm(test, options, &report);
+    byError += report.stoppedBy == "error";
+    double squares = 0.0;
+    double norm = 0.0;
+    double mean = 0.0;
+    for (std::size_t i = 0; i < count; ++i) {
+      mean += film.mean(i, film::R) / double(count);
+      if (1.0 - truth.mean(i, kTransmittance) > 0.01) {
+        for (int channel = 0; channel < 3; ++channel) {
+          const double difference = film.mean(i, channel) - truth.mean(i, channel);
+          squares += difference * difference;
+          norm += truth.mean(i, channel) * truth.mean(i, channel);
+        }
+      }
+    }
+    kept += std::sqrt(squares / norm) <= kTarget;
+    means.push_back(mean);
+  }
+  EXPECT_EQ(byError, runs);
+  // 90 % of 40 runs is 36; fewer than 30 would be one in 4000.
+  EXPECT_GE(kept, static_cast<int>(0.9 * runs - 3.5 * std::sqrt(0.09 * runs)));
+  const film::TestResult bias = film::welchTest(film::summarise(means), truth.image(0));
+  EXPECT_GT(bias.p, kFamilyRate);
+  for (double& mean : means) {
+    mean *= 0.97; // planted: what stopping on one's own samples does
+  }
+  EXPECT_LT(film::welchTest(film::summarise(means), truth.image(0)).p, kFamilyRate);
+}
+
+} // namespace
+} // namespace tyndall::test

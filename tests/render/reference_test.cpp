@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures against closed forms and quadrature: airlight (validation.md A1), the box under a directional light (A2),
+// every phase function.
+#include "support/oracle_radiance.h"
+#include "support/render_fixture.h"
+#include "support/render_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace tyndall::test {
+namespace {
+
+using std::numbers::pi;
+
+/// One row of A1's table; radiance at 12 digits.
+struct AirlightRow {
+  double sigmaT, albedo, g, d, h, tMax, radiance;
+};
+constexpr AirlightRow kRows[] = {
+    {0.1, 0.9, 0.0, 5.0, 1.0, 20.0, 0.0103598185685},   {0.1, 0.9, 0.7, 5.0, 1.0, 20.0, 0.0153156256823},
+    {0.1, 0.9, -0.5, 5.0, 1.0, 20.0, 0.0107792022829},  {1.0, 0.5, 0.3, 2.0, 0.1, 10.0, 0.165747502219},
+    {1.0, 0.5, 0.3, 2.0, 0.001, 10.0, 18.9658564515},   {0.01, 1.0, 0.9, 100.0, 3.0, 1000.0, 0.00142365682824},
+    {5.0, 0.99, 0.0, 0.5, 0.05, 4.0, 1.32831277621},    {0.0001, 1.0, 0.0, 10.0, 0.5, 100.0, 4.90580330352e-5},
+    {0.25, 0.8, 0.85, 3.0, 2.0, 1000.0, 0.00148568044267}};
+
+/// The footprint of every pixel is the axis itself: 1e-6 degrees.
+TestScene airlight(const AirlightRow& row, double verticalFov = 1e-6) {
+  TestScene test({16, 16});
+  test.perspective({0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, verticalFov);
+  const double side = 2.0 * row.tMax;
+  test.box({-side, -side, 0.0}, {side, side, row.tMax}, row.sigmaT, row.albedo).phase = henyeyGreenstein(row.g);
+  test.point({row.h, 0.0, row.d});
+  return test;
+}
+
+Verdict airlightVerdict(const AirlightRow& row, std::uint32_t bug) {
+  MomentOptions options;
+  options.tracer.plantedBug = bug;
+  const TestScene test = airlight(row);
+  return imageTest(renderMoments(test.scene, test.volumes, options), row.radiance, 0, 2e-5);
+}
+
+TEST(Airlight, QuadratureReproducesTheTable) {
+  for (const AirlightRow& row : kRows) {
+    const TestScene test = airlight(row);
+    const OracleScene oracle(test.scene, test.volumes, {.relative = 1e-11});
+    EXPECT_NEAR(oracle.radiance({glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 1.0)}) / row.radiance, 1.0, 1e-9) << row.radiance;
+  }
+}
+
+TEST(Airlight, SingleRayOfEveryRow) {
+  for (const AirlightRow& row : kRows) {
+    EXPECT_AGREES(airlightVerdict(row, interop::kBugNone)) << "\nsigma_t " << row.sigmaT << " g " << row.g << " h " << row.h;
+  }
+}
+
+TEST(Airlight, PlantedBugsAreSeen) {
+  EXPECT_DIFFERS(airlightVerdict(kRows[7], interop::kBugPlainLog)); // row 8: all its draws lie where log is worst
+  EXPECT_DIFFERS(airlightVerdict(kRows[1], interop::kBugPhaseSign));
+  EXPECT_DIFFERS(airlightVerdict(kRows[0], interop::kBugJacobian));
+  EXPECT_DIFFERS(airlightVerdict(kRows[0], interop::kBugNoInverse4Pi));
+}
+
+TEST(Airlight, PictureAgreesWithQuadratureOverEveryFootprint) {
+  TestScene test = airlight({0.3, 0.9, 0.4, 4.0, 0.7, 8.0, 0.0}, 35.0);
+  const OracleScene oracle(test.scene, test.volumes, {.relative = 1e-8});
+  const auto reference = oracle.picture([&](const OracleRay& ray) { return oracle.radiance(ray); }, 8);
+  const Moments moments = renderMoments(test.scene, test.volumes);
+  EXPECT_AGREES(pixelTest(moments, reference, 0, 1e-4)); // 1e-4: of the footprint's quadrature near the light
+  EXPECT_AGREES(imageTest(moments, meanOf(reference), 0, 2e-5));
+  MomentOptions bad;
+  bad.tracer.plantedBug = interop::kBugPhaseSign;
+  EXPECT_DIFFERS(imageTest(renderMoments(test.scene, test.volumes, bad), meanOf(reference), 0, 2e-5));
+}
+
+/// A row's medium as a grid of constant density around the camera, the light and the ray up to tMax.
+TEST(Airlight, GridOfConstantDensityWithBothTrackers) {
+  for (const std::size_t index : {0u, 1u, 3u, 6u}) {
+    const AirlightRow& row = kRows[index];
+    TestScene test({16, 16});
+    test.perspective({0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, 1e-6);
+    const double side = 0.5 * row.tMax;
+    test.grid(constantGrid(21, {-side, -side, -0.1 * row.tMax}, {side, side, row.tMax}, 1.0), row.sigmaT, row.albedo).phase = henyeyGreenstein(row.g);
+    test.point({row.h, 0.0, row.d});
+    const OracleScene oracle(test.scene, test.volumes, {.relative = 1e-8});
+    const double reference = oracle.radiance({glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 1.0)});
+    for (const bool delta : {false, true}) {
+      MomentOptions options;
+      options.replicates = 64;
+      options.tracer.deltaTracking = delta;
+      EXPECT_AGREES(imageTest(renderMoments(test.scene, test.volumes, options), reference, 0, 2e-5)) << "\nrow " << index + 1 << " delta " << delta;
+    }
+  }
+}
+
+/// A2's closed form: mean over a pixel of height dy at y.
+std::vector<double> slabReference(const glm::uvec2& size, double sigmaT, double albedo, double irradiance) {
+  std::vector<double> reference;
+  const double dy = 2.0 / size.y;
+  const double u = 0.5 * sigmaT * dy;
+  for (std::uint32_t row = 0; row < size.y; ++row) {
+    const double y = 1.0 - (row + 0.5) * dy;
+    const double value = albedo / (4.0 * pi) * irradiance * std::exp(-sigmaT * (1.0 - y)) * -std::expm1(-2.0 * sigmaT) * std::sinh(u) / u;
+    reference.insert(reference.end(), size.x, value);
+  }
+  return reference;
+}
+
+TestScene litBox() {
+  TestScene test({16, 16});
+  test.orthographic({0.0, 0.0, 5.0}, {0.0, 0.0, 0.0}, 2.0);
+  test.sun({0.0, -1.0, 0.0}, 3.0);
+  return test;
+}
+
+TEST(DirectionalLightOnABox, HomogeneousAgreesInEveryPixel) {
+  for (const double sigmaT : {0.01, 1.0, 6.0}) {
+    TestScene test = litBox();
+    test.box(glm::dvec3(-1.0), glm::dvec3(1.0), sigmaT, 0.8);
+    const auto reference = slabReference(test.scene.film.size, sigmaT, 0.8, 3.0);
+    const Moments moments = renderMoments(test.scene, test.volumes);
+    EXPECT_AGREES(pixelTest(moments, reference)) << sigmaT;
+    EXPECT_AGREES(imageTest(moments, meanOf(reference))) << sigmaT;
+    EXPECT_AGREES(imageTest(moments, std::exp(-2.0 * sigmaT), kTransmittance)) << sigmaT;
+    MomentOptions bad;
+    bad.tracer.plantedBug = interop::kBugNoInverse4Pi;
+    EXPECT_DIFFERS(pixelTest(renderMoments(test.scene, test.volumes, bad), reference)) << sigmaT;
+  }
+}
+
+/// The same cube of constant density as voxels, whose field falls to 0 over a voxel: the reference is by quadrature.
+TEST(DirectionalLightOnABox, GridAgreesInEveryPixelStorageAndTracker) {
+  TestScene first = litBox();
+  first.scene.film.size = {8, 8};
+  first.grid(constantGrid(11, glm::dvec3(-0.9), glm::dvec3(0.9), 1.0), 1.2, 0.8);
+  const OracleScene oracle(first.scene, first.volumes, {.relative = 1e-6});
+  // The field has kinks at multiples of 0.18, pixels edges at multiples of 0.25: 5 nodes leave less than 1e-4.
+  const auto reference = oracle.picture([&](const OracleRay& ray) { return oracle.radiance(ray); }, 5);
+  const auto transmittance = oracle.transmittancePicture(12);
+  for (const auto storage : {volume::Storage::Unorm8, volume::Storage::Half, volume::Storage::Float}) {
+    TestScene test = first;
+    test.volumes.grids[0] = constantGrid(11, glm::dvec3(-0.9), glm::dvec3(0.9), 1.0, storage);
+    for (const bool delta : {false, true}) {
+      MomentOptions options;
+      options.tracer.deltaTracking = delta;
+      const Moments moments = renderMoments(test.scene, test.volumes, options);
+      EXPECT_AGREES(pixelTest(moments, reference, 0, 3e-4)) << volume::storageName(storage) << delta;
+      EXPECT_AGREES(imageTest(moments, meanOf(reference), 0, 1e-4)) << volume::storageName(storage) << delta;
+      EXPECT_AGREES(pixelTest(moments, transmittance, kTransmittance, 1e-4)) << volume::storageName(storage) << delta;
+    }
+  }
+  MomentOptions bad;
+  bad.tracer.plantedBug = interop::kBugHalfVoxel;
+  EXPECT_DIFFERS(pixelTest(renderMoments(first.scene, first.volumes, bad), reference, 0, 3e-4));
+}
+
+TEST(PhaseFunctions, EveryModelAgreesWithQuadratureInASlab) {
+  const std::vector<scene::Phase> phases = {
+      {PhaseId::Isotropic, {}},           {PhaseId::HenyeyGreenstein, {0.6, 0, 0, 0}}, {PhaseId::TwoLobe, {0.8, -0.3, 0.6, 0}},
+      {PhaseId::Rayleigh, {}},            {PhaseId::Draine, {0.5, 20.0, 0, 0}},        {PhaseId::Mie, {12.0, 0, 0, 0}}};
+  for (const scene::Phase& phase : phases) {
+    TestScene test({8, 8});
+    test.perspective({0.0, 0.0, -3.0}, {0.0, 0.0, 0.0}, 45.0);
+    test.box({-2.0, -2.0, -1.0}, {2.0, 2.0, 1.0}, 0.7, 0.9).phase = phase;
+    test.sun({0.3, -0.5, 1.0}, 2.0);
+    test.sun({0.0, -1.0, -0.4}, 1.0, 4.0);
+    test.point({1.0, 0.5, 3.0}, 5.0);
+    const OracleScene oracle(test.scene, test.volumes, {.relative = 1e-6});
+    const auto reference = oracle.picture([&](const OracleRay& ray) { return oracle.radiance(ray); }, 4);
+    EXPECT_AGREES(imageTest(renderMoments(test.scene, test.volumes, {.replicates = 64}), meanOf(reference), 0, 1e-4)) << "\nphase " << static_cast<unsigned>(phase.id);
+    if (phase.id != PhaseId::Isotropic && phase.id != PhaseId::Rayleigh) {
+      MomentOptions bad;
+      bad.tracer.plantedBug = interop::kBugPhaseSign;
+      EXPECT_DIFFERS(imageTest(renderMoments(test.scene, test.volumes, bad), meanOf(reference), 0, 1e-4));
+    }
+  }
+}
+
+} // namespace
+} // namespace tyndall::test

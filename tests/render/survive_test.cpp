@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+// Numbers that must survive (volumes.md section 8; docs/numbers-that-survive.md lists which line is which test):
+// no sample is lost, everything is finite, and right where there is a closed form.
+#include "render/film_fixture.h"
+#include "support/oracle_radiance.h"
+#include "support/render_fixture.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <cmath>
+#include <numbers>
+
+namespace tyndall::test {
+namespace {
+
+using std::numbers::pi;
+
+/// Every mean finite; renderMoments itself fails on samples that were not and on exceeded majorants.
+void expectFinite(const Moments& moments, const std::string& name) {
+  for (const auto& pixel : moments.pixels) {
+    for (const film::SampleSummary& channel : pixel) {
+      ASSERT_TRUE(std::isfinite(channel.mean) && std::isfinite(channel.variance)) << name;
+    }
+  }
+}
+
+/// Validation A2's cube of a given size, as a box or as voxels, seen through its inside.
+TestScene cube(double size, double sigmaT, bool grid, double albedo = 0.8) {
+  TestScene test({8, 8});
+  test.orthographic({0.0, 0.0, 5.0 * size}, {0.0, 0.0, 0.0}, 0.5 * size);
+  test.sun({0.0, -1.0, 0.0}, 3.0);
+  if (grid) {
+    test.grid(constantGrid(9, glm::dvec3(-size), glm::dvec3(size), 1.0), sigmaT, albedo);
+  } else {
+    test.box(glm::dvec3(-size), glm::dvec3(size), sigmaT, albedo);
+  }
+  return test;
+}
+
+TEST(Survives, ExtinctionAndSizeOverTheirRanges) {
+  for (const double size : {1e-4, 1.0, 1e6}) {
+    for (const double sigmaT : {1e-8, 1e-4, 1.0, 1e4, 1e8}) {
+      for (const bool grid : {false, true}) {
+        const std::string name = fmt::format("size {} extinction {} grid {}", size, sigmaT, grid);
+        const TestScene test = cube(size, sigmaT, grid);
+        const Moments moments = renderMoments(test.scene, test.volumes, {.replicates = 16});
+        expectFinite(moments, name);
+        const OracleScene oracle(test.scene, test.volumes, {.relative = 1e-5});
+        const double depth = oracle.opticalDepth(oracle.cameraRay({0.5, 0.5}), 1e30);
+        EXPECT_AGREES(imageTest(moments, std::exp(-depth), kTransmittance, 1e-6 * (2.0 + depth))) << name;
+        // Beyond, an estimate by collisions sees nothing in so few samples: the light does not reach where it collides,
+        // or there are no collisions.
+        if (depth > 1e-2 && depth < 20.0) {
+          const auto reference = oracle.picture([&](const OracleRay& ray) { return oracle.radiance(ray); }, 3);
+          EXPECT_AGREES(imageTest(moments, meanOf(reference), 0, 1e-3)) << name;
+        } else if (!grid && depth < 1.0) {
+          EXPECT_AGREES(imageTest(moments, 0.8 * sigmaT * 2.0 * size * 3.0 / (4.0 * pi), 0, 1e-3)) << name;
+        }
+      }
+    }
+  }
+}
+
+TEST(Survives, ScenesFarFromTheOrigin) {
+  const glm::dvec3 far(1e5, 1e5, -1e5);
+  for (const bool grid : {false, true}) {
+    TestScene near = cube(1.0, 1.0, grid);
+    TestScene moved = near;
+    moved.scene.camera.position += far;
+    moved.scene.camera.target += far;
+    moved.scene.media[0].worldFromMedium = glm::translate(glm::dmat4(1.0), far);
+    EXPECT_AGREES(tileTest(renderMoments(near.scene, near.volumes), renderMoments(moved.scene, moved.volumes, {.firstSeed = 1000}))) << grid;
+  }
+}
+
+TEST(Survives, OpticalDepthZeroAndAMillion) {
+  for (const bool delta : {false, true}) {
+    MomentOptions options{.replicates = 8};
+    options.tracer.deltaTracking = delta;
+    for (const bool grid : {false, true}) {
+      const TestScene none = cube(1.0, 0.0, grid);
+      const Moments empty = renderMoments(none.scene, none.volumes, options);
+      EXPECT_AGREES(imageTest(empty, 1.0, kTransmittance, 1e-7)) << grid;
+      EXPECT_EQ(empty.image(0).mean, 0.0) << grid;
+      const TestScene dense = cube(1.0, 5e5, grid);
+      const Moments opaque = renderMoments(dense.scene, dense.volumes, options);
+      expectFinite(opaque, "opaque");
+      EXPECT_EQ(opaque.image(kTransmittance).mean, 0.0) << grid;
+    }
+  }
+}
+
+/// An opaque half-space under light from the camera's side: Chandrasekhar's first order, albedo / (4 pi) / (1 + mu/mu0).
+TEST(Survives, OpaqueMediaReflectTheFirstOrder) {
+  for (const double sigmaT : {50.0, 5e5}) {
+    for (const bool delta : {false, true}) {
+      TestScene test({8, 8});
+      test.orthographic({0.0, 0.0, 5.0}, {0.0, 0.0, 0.0}, 0.2);
+      test.sun({0.0, 0.0, -1.0}, 1.0); // mu = mu0 = 1
+      const bool grid = delta;
+      if (grid) { // as voxels, whose density grows over the first one: the albedo's first order does not mind
+        test.grid(constantGrid(9, glm::dvec3(-1.0), glm::dvec3(1.0), 1.0), sigmaT, 0.8);
+      } else {
+        test.box(glm::dvec3(-1.0), glm::dvec3(1.0), sigmaT, 0.8);
+      }
+      EXPECT_AGREES(imageTest(renderMoments(test.scene, test.volumes, {.replicates = 64}), 0.8 / (4.0 * pi) / 2.0, 0, 1e-3)) << sigmaT << grid;
+    }
+  }
+}
+
+TEST(Survives, PeakedPhaseFunctions) {
+  for (const double g : {0.9999, -0.9999}) {
+    TestScene test({8, 8});
+    test.orthographic({0.0, 0.0, 5.0}, {0.0, 0.0, 0.0}, 1.0);
+    test.sphere(glm::dvec3(0.0), 1.0, 1.0, 0.9).phase = henyeyGreenstein(g);
+    test.constant(1.0);
+    const Moments moments = renderMoments(test.scene, test.volumes);
+    expectFinite(moments, "constant");
+    // Light comes from where it goes (or from behind): straight through, or back out by the way in.
+    const OracleScene oracle(test.scene, test.volumes);
+    const auto reference = oracle.picture([&](const OracleRay& ray) {
+      const double depth = oracle.opticalDepth(ray, 1e30);
+      const double scattered = g > 0.0 ? depth * std::exp(-depth) : -0.5 * std::expm1(-2.0 * depth);
+      return 0.9 * scattered + std::exp(-depth);
+    }, 4);
+    EXPECT_AGREES(imageTest(moments, meanOf(reference), 0, 2e-3)) << g; // 2e-3: 1 - |g| = 1e-4 has a tail of its root
+    TestScene sun = test;
+    sun.scene.lights.clear();
+    sun.sun({0.002, 0.0, -1.0}, 1.0, 0.53);
+    sun.point({0.0, 0.0, -3.0});
+    expectFinite(renderMoments(sun.scene, sun.volumes), "sun");
+  }
+}
+
+TEST(Survives, LightsOfEveryStrength) {
+  for (const double strength : {1e-12, 1e12}) {
+    TestScene test = cube(1.0, 1.0, false);
+    std::get<scene::SunLight>(test.scene.lights[0].light).irradiance = glm::dvec3(strength);
+    test.point({0.0, 3.0, 0.0}, strength);
+    test.constant(strength);
+    const OracleScene oracle(test.scene, test.volumes, {.relative = 1e-5});
+    const Moments moments = renderMoments(test.scene, test.volumes);
+    const auto reference = oracle.picture([&](const OracleRay& ray) { return oracle.total(ray); }, 2);
+    EXPECT_AGREES(imageTest(moments, meanOf(reference), 0, 3e-3)) << strength; // 3e-3: edges of the box in the sphere rule
+  }
+  // A faint light beside one that is 1e24 times brighter: finite, and the bright one right.
+  TestScene both = cube(1.0, 1.0, false);
+  both.point({0.0, 3.0, 0.0}, 1e12);
+  both.point({0.0, -3.0, 0.0}, 1e-12);
+  both.scene.lights.erase(both.scene.lights.begin());
+  const OracleScene oracle(both.scene, both.volumes, {.relative = 1e-6});
+  const auto reference = oracle.picture([&](const OracleRay& ray) { return oracle.radiance(ray); }, 3);
+  EXPECT_AGREES(imageTest(renderMoments(both.scene, both.volumes), meanOf(reference), 0, 1e-4));
+}
+
+/// A light in the middle of the picture and of the medium: radiance goes as 1 / h beside it, so pixels around it are
+/// compared, those that hold it must be finite.
+TEST(Survives, LightOnTheCameraRayAndInsideTheMedium) {
+  TestScene test({9, 9});
+  test.perspective({0.0, 0.0, 4.0}, {0.0, 0.0, 0.0}, 20.0);
+  test.sphere(glm::dvec3(0.0), 1.0, 0.7, 0.9);
+  test.point({0.0, 0.0, 0.0});
+  const Moments moments = renderMoments(test.scene, test.volumes, {.replicates = 64});
+  expectFinite(moments, "on the ray");
+  const OracleScene oracle(test.scene, test.volumes, {.relative = 1e-7});
+  auto reference = oracle.picture([&](const OracleRay& ray) { return oracle.radiance(ray); }, 10);
+  for (int y = 3; y <= 5; ++y) {
+    for (int x = 3; x <= 5; ++x) {
+      reference[static_cast<std::size_t>(9 * y + x)] = std::nan("");
+    }
+  }
+  EXPECT_AGREES(pixelTest(moments, reference, 0, 1e-3));
+  TestScene grid = test;
+  grid.scene.media.clear();
+  grid.volumes = {};
+  grid.grid(constantGrid(9, glm::dvec3(-1.0), glm::dvec3(1.0), 1.0), 0.7);
+  grid.perspective({0.0, 0.0, 4.0}, {0.0, 0.0, 0.0}, 1e-7); // all rays meet the light
+  expectFinite(renderMoments(grid.scene, grid.volumes), "grid");
+}
+
+TEST(Survives, CameraInsideDenseFog) {
+  for (const bool grid : {false, true}) {
+    TestScene test({8, 8});
+    test.perspective({0.0, 0.0, 0.0}, {0.0, 0.0, -1.0}, 20.0);
+    if (grid) {
+      test.grid(constantGrid(9, glm::dvec3(-1.0), glm::dvec3(1.0), 1.0), 200.0, 0.9);
+    } else {
+      test.box(glm::dvec3(-1.0), glm::dvec3(1.0), 200.0, 0.9);
+    }
+    test.point({0.01, 0.004, -0.02}, 1e-3);
+    const OracleScene oracle(test.scene, test.volumes, {.relative = 1e-6});
+    const auto reference = oracle.picture([&](const OracleRay& ray) { return oracle.radiance(ray); }, 5);
+    const Moments moments = renderMoments(test.scene, test.volumes, {.replicates = 128});
+    expectFinite(moments, "inside fog");
+    EXPECT_AGREES(imageTest(moments, meanOf(reference), 0, 1e-3)) << grid;
+  }
+}
+
+TEST(Survives, AlbedoZeroAndOne) {
+  for (const bool grid : {false, true}) {
+    const TestScene black = cube(1.0, 1.0, grid, 0.0);
+    EXPECT_EQ(renderMoments(black.scene, black.volumes, {.replicates = 4}).image(0).mean, 0.0) << grid;
+    const TestScene white = cube(1.0, 1.0, grid, 1.0);
+    const OracleScene oracle(white.scene, white.volumes, {.relative = 1e-5});
+    const auto reference = oracle.picture([&](const OracleRay& ray) { return oracle.radiance(ray); }, 3);
+    EXPECT_AGREES(imageTest(renderMoments(white.scene, white.volumes), meanOf(reference), 0, 1e-4)) << grid;
+  }
+}
+
+TEST(Survives, GridsOneVoxelThick) {
+  for (int axis = 0; axis < 4; ++axis) { // 3: a single voxel
+    glm::ivec3 size(axis == 3 ? 1 : 9);
+    size[axis % 3] = 1;
+    TestScene test({8, 8});
+    test.grid(gridOf(size, glm::ivec3(-4), glm::dmat4(1.0), [](const glm::ivec3&) { return 1.0; }), 0.4, 0.9);
+    test.perspective({5.0, 9.0, 14.0}, glm::dvec3(test.volumes.grids[0].worldBounds().centre()), 25.0);
+    test.sun({0.2, -1.0, -0.5}, 1.0);
+    const OracleScene oracle(test.scene, test.volumes, {.relative = 1e-5});
+    const auto reference = oracle.picture([&](const OracleRay& ray) { return oracle.radiance(ray); }, 6);
+    EXPECT_AGREES(imageTest(renderMoments(test.scene, test.volumes, {.replicates = 64}), meanOf(reference), 0, 2e-3)) << axis;
+  }
+}
+
+TEST(Survives, ManySamplesOfOnePixelWithoutDrift) {
+  const std::uint32_t samples = effort() > 1 ? 1u << 20 : 1u << 16;
+  TestScene test({1, 1});
+  test.orthographic({0.0, 0.0, 5.0}, {0.0, 0.0, 0.0}, 1e-6);
+  test.sun({0.0, -1.0, 0.0}, 3.0);
+  test.box(glm::dvec3(-1.0), glm::dvec3(1.0), 1.0, 0.8);
+  render::RenderOptions options;
+  options.stop.samples = samples;
+  const film::Film film = renderFilm(test, options);
+  ASSERT_EQ(film.samples(0), samples);
+  // Every sample is the same number: whatever the sum loses shows.
+  const double expected = 0.8 / (4.0 * pi) * 3.0 * std::exp(-1.0) * -std::expm1(-2.0);
+  EXPECT_NEAR(film.mean(0, film::R) / expected, 1.0, 2e-6);
+  EXPECT_NEAR(film.mean(0, film::T) / std::exp(-2.0), 1.0, 2e-6);
+}
+
+} // namespace
+} // namespace tyndall::test

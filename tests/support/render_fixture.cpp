@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "support/render_fixture.h"
+
+#include "gpu_scene/gpu_scene.h"
+#include "support/probe.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+namespace tyndall::test {
+namespace {
+
+void reportMessages() {
+  static std::size_t reported = 0;
+  const std::vector<std::string>& messages = probeDevice().messages();
+  for (; reported < messages.size(); ++reported) {
+    ADD_FAILURE() << "validation: " << messages[reported];
+  }
+}
+
+std::vector<std::uint32_t> allPixels(const glm::uvec2& size) {
+  std::vector<std::uint32_t> pixels;
+  for (std::uint32_t y = 0; y < size.y; ++y) {
+    for (std::uint32_t x = 0; x < size.x; ++x) {
+      pixels.push_back(x | y << 16);
+    }
+  }
+  return pixels;
+}
+
+/// Means of the pixels over the samples of one seed.
+std::vector<std::array<double, 4>> renderReplicate(render::Tracer& tracer, const std::vector<std::uint32_t>& pixels,
+                                                   std::uint32_t samples, std::uint32_t seed) {
+  std::vector<std::array<double, 4>> means(pixels.size(), std::array<double, 4>{});
+  for (std::uint32_t first = 0; first < samples; first += film::kBatchSamples) {
+    const std::uint32_t count = std::min(film::kBatchSamples, samples - first);
+    for (std::size_t begin = 0; begin < pixels.size(); begin += tracer.chunkPixels()) {
+      const std::size_t chunk = std::min<std::size_t>(tracer.chunkPixels(), pixels.size() - begin);
+      const auto sums = tracer.run(std::span(pixels).subspan(begin, chunk), {first, count}, seed);
+      for (std::size_t i = 0; i < chunk; ++i) {
+        for (std::size_t channel = 0; channel < 4; ++channel) {
+          const double background = channel < 3 ? double(sums[i].extras[channel]) : 0.0;
+          means[begin + i][channel] += (double(sums[i].moments[channel]) + background) / samples;
+        }
+      }
+    }
+  }
+  return means;
+}
+
+/// Two-sided p of a difference, after what rounding may be to blame for is taken off.
+double differenceP(double difference, double allowed, double standardError, double degrees, double& t) {
+  const double excess = std::max(0.0, std::abs(difference) - allowed);
+  t = excess == 0.0 ? 0.0 : excess / standardError; // infinite without any scatter
+  if (excess == 0.0) {
+    return 1.0;
+  }
+  return standardError > 0.0 && std::isfinite(t) ? film::studentTTwoSidedP(t, degrees) : 0.0;
+}
+
+double standardErrorOf(const film::SampleSummary& summary) { return std::sqrt(summary.variance / summary.count); }
+
+/// Keeps the least likely of a family.
+class Family {
+public:
+  void add(std::size_t index, double p, double t, double bias) {
+    ++count_;
+    if (p < smallest_ || count_ == 1) {
+      smallest_ = p;
+      verdict_.worst = index;
+      verdict_.worstT = t;
+      verdict_.bias = bias;
+    }
+  }
+  Verdict verdict() const {
+    Verdict result = verdict_;
+    result.familyP = film::sidakFamilyP(smallest_, double(count_));
+    return result;
+  }
+
+private:
+  Verdict verdict_;
+  double smallest_ = 1.0;
+  std::size_t count_ = 0;
+};
+
+/// Difference of two tiles' means with Welch's and Satterthwaite's degrees of freedom; pixels are independent, because
+/// their random streams differ.
+struct TileSums {
+  double difference = 0.0;
+  double scale = 0.0;
+  double variance = 0.0;
+  double spread = 0.0;   ///< sum of variance^2 / degrees
+
+  void add(const film::SampleSummary& pixel) {
+    const double part = pixel.variance / pixel.count;
+    variance += part;
+    spread += part * part / (pixel.count - 1.0);
+  }
+  double degrees() const { return spread > 0.0 ? variance * variance / spread : 1.0; }
+};
+
+} // namespace
+
+std::uint32_t effort() {
+  const char* text = std::getenv("TYNDALL_TEST_EFFORT");
+  return text == nullptr ? 1u : std::max(1u, static_cast<std::uint32_t>(std::strtoul(text, nullptr, 10)));
+}
+
+film::SampleSummary Moments::image(int channel) const {
+  std::vector<double> values;
+  for (const auto& means : imageMeans) {
+    values.push_back(means[static_cast<std::size_t>(channel)]);
+  }
+  return film::summarise(values);
+}
+
+Moments renderMoments(const scene::Scene& scene, const gpu_scene::VolumeSet& volumes, const MomentOptions& options) {
+  gpu_scene::VolumeSet set = volumes;
+  set.uses.resize(scene.media.size());
+  const gpu_scene::GpuScene gpuScene(probeDevice(), scene, set);
+  render::Tracer tracer(probeDevice(), gpuScene, options.tracer);
+  const std::vector<std::uint32_t> pixels = allPixels(scene.film.size);
+  Moments result;
+  result.size = scene.film.size;
+  result.replicates = options.replicates * effort();
+  result.pixels.resize(pixels.size());
+  // Welford's running moments: the values of all replicates would not fit for big pictures.
+  for (std::uint32_t replicate = 0; replicate < result.replicates; ++replicate) {
+    const auto means = renderReplicate(tracer, pixels, options.samples, options.firstSeed + replicate);
+    std::array<double, 4> image{};
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      for (std::size_t channel = 0; channel < 4; ++channel) {
+        film::SampleSummary& summary = result.pixels[i][channel];
+        const double delta = means[i][channel] - summary.mean;
+        summary.count += 1.0;
+        summary.mean += delta / summary.count;
+        summary.variance += delta * (means[i][channel] - summary.mean);
+        image[channel] += means[i][channel] / double(pixels.size());
+      }
+    }
+    result.imageMeans.push_back(image);
+  }
+  for (auto& pixel : result.pixels) {
+    for (film::SampleSummary& summary : pixel) {
+      summary.variance /= std::max(1.0, summary.count - 1.0);
+    }
+  }
+  result.totals = tracer.totals();
+  reportMessages();
+  if (options.tracer.plantedBug == interop::kBugNone) {
+    EXPECT_EQ(result.totals.nonFinite, 0u);
+    EXPECT_EQ(result.totals.majorantExceeded, 0u);
+  }
+  return result;
+}
+
+std::string Verdict::text() const {
+  return fmt::format("family p {:.3g}, worst at {}: {:.1f} standard errors, {:+.4g} % of the reference (one standard error is {:.3g} %)",
+                     familyP, worst, worstT, 100.0 * bias, 100.0 * resolution);
+}
+
+Verdict pixelTest(const Moments& moments, const std::vector<double>& reference, int channel, double tolerance) {
+  Family family;
+  for (std::size_t i = 0; i < reference.size(); ++i) {
+    if (std::isnan(reference[i])) {
+      continue;
+    }
+    const film::SampleSummary& pixel = moments.pixels[i][static_cast<std::size_t>(channel)];
+    const double difference = pixel.mean - reference[i];
+    double t = 0.0;
+    const double p = differenceP(difference, tolerance * std::abs(reference[i]), standardErrorOf(pixel), pixel.count - 1.0, t);
+    family.add(i, p, t, difference / reference[i]);
+  }
+  Verdict verdict = family.verdict();
+  verdict.resolution = standardErrorOf(moments.pixels[verdict.worst][static_cast<std::size_t>(channel)]) / std::abs(reference[verdict.worst]);
+  return verdict;
+}
+
+Verdict imageTest(const Moments& moments, double reference, int channel, double tolerance) {
+  const film::SampleSummary image = moments.image(channel);
+  Verdict verdict;
+  verdict.familyP = differenceP(image.mean - reference, tolerance * std::abs(reference), standardErrorOf(image), image.count - 1.0, verdict.worstT);
+  verdict.bias = (image.mean - reference) / reference;
+  verdict.resolution = standardErrorOf(image) / std::abs(reference);
+  return verdict;
+}
+
+Verdict tileTest(const Moments& a, const Moments& b, double tolerance) {
+  constexpr std::uint32_t kTile = 16;
+  const glm::uvec2 tiles = (a.size + kTile - 1u) / kTile;
+  Family family;
+  for (int channel = 0; channel < 4; ++channel) {
+    std::vector<TileSums> sums(std::size_t(tiles.x) * tiles.y);
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+      TileSums& tile = sums[i % a.size.x / kTile + tiles.x * (i / a.size.x / kTile)];
+      const film::SampleSummary& first = a.pixels[i][static_cast<std::size_t>(channel)];
+      const film::SampleSummary& second = b.pixels[i][static_cast<std::size_t>(channel)];
+      tile.difference += first.mean - second.mean;
+      tile.scale += 0.5 * (std::abs(first.mean) + std::abs(second.mean));
+      tile.add(first);
+      tile.add(second);
+    }
+    for (std::size_t tile = 0; tile < sums.size(); ++tile) {
+      const TileSums& sum = sums[tile];
+      double t = 0.0;
+      const double p = differenceP(sum.difference, tolerance * sum.scale, std::sqrt(sum.variance), sum.degrees(), t);
+      family.add(tile, p, t, sum.scale > 0.0 ? sum.difference / sum.scale : 0.0);
+    }
+  }
+  return family.verdict();
+}
+
+double meanOf(const std::vector<double>& values) {
+  double sum = 0.0;
+  double count = 0.0;
+  for (const double value : values) {
+    if (!std::isnan(value)) {
+      sum += value;
+      count += 1.0;
+    }
+  }
+  return sum / count;
+}
+
+} // namespace tyndall::test
