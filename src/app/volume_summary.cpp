@@ -81,7 +81,7 @@ template <class Vector> std::string inWords(const Vector& v) { return fmt::forma
 
 std::string gridText(const GridInfo& grid) {
   std::string text = fmt::format("\ngrid \"{}\"\n", grid.name);
-  const auto line = [&](const char* name, const std::string& value) { text += fmt::format("  {:<16}{}\n", name, value); };
+  const auto line = [&](const char* name, const std::string& value) { text += fmt::format("  {:<18}{}\n", name, value); };
   line("type", fmt::format("{}, {}{}", grid.type, grid.gridClass, grid.scalar ? "" : " (cannot be rendered)"));
   if (!grid.whyNot.empty()) {
     line("", grid.whyNot);
@@ -106,11 +106,11 @@ std::string gridText(const GridInfo& grid) {
 }
 
 std::string planText(const GridPlan& plan) {
-  std::string text = fmt::format("  {:<16}\"{}\" as {}: {}, {:.0f} % of the dense box ({}); worst voxel error {:.2g} of the maximum\n",
+  std::string text = fmt::format("  {:<18}\"{}\" as {}: {}, {:.0f} % of the dense box ({}); worst voxel error {:.2g} of the maximum\n",
                                  "on the device", plan.grid, volume::storageName(plan.storage), inBytes(plan.deviceBytes),
                                  100.0 * plan.deviceBytes / plan.denseBytes, inBytes(plan.denseBytes), plan.quantisationError);
   for (const std::string& note : plan.notes) {
-    text += fmt::format("  {:<16}\"{}\": {}\n", "note", plan.grid, note);
+    text += fmt::format("  {:<18}\"{}\": {}\n", "note", plan.grid, note);
   }
   return text;
 }
@@ -163,7 +163,7 @@ std::string toText(const VolumeSummary& summary) {
     text += gridText(grid);
   }
   text += "\na bare render\n";
-  const auto line = [&](const char* name, const std::string& value) { text += fmt::format("  {:<16}{}\n", name, value); };
+  const auto line = [&](const char* name, const std::string& value) { text += fmt::format("  {:<18}{}\n", name, value); };
   if (!summary.choice.empty()) {
     line("takes", summary.choice);
   }

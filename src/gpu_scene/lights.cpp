@@ -131,9 +131,7 @@ private:
     }
     interop::DistantLight light{};
     light.kind = interop::kDistantMap;
-    light.map.size = table.size;
-    light.map.cellCount = table.cellCount;
-    light.map.rotation = static_cast<float>(rotationDegrees / 360.0);
+    light.map = light::deviceMap(table, rotationDegrees, {}, {});
     const double power = table.power;
     out_.tables.push_back(std::move(table));
     addDistant(light, power, false);

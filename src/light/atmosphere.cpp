@@ -72,8 +72,10 @@ Atmosphere::Atmosphere(double turbidity) {
 
 glm::dvec3 Atmosphere::densityAt(double radius) {
   const double height = std::max(radius - kGroundRadius, 0.0);
-  return {std::exp(-height / kAirScaleHeight), std::exp(-height / kHazeScaleHeight),
-          std::max(0.0, 1.0 - std::abs(height - kOzoneCentre) / kOzoneHalfWidth)};
+  const double fromCentre = (height - kOzoneCentre) / kOzoneHalfWidth;
+  // [Bruneton17] has a tent; a raised cosine of the same column and width has no kinks for the quadratures to miss.
+  const double ozone = std::abs(fromCentre) < 1.0 ? 0.5 + 0.5 * std::cos(std::numbers::pi * fromCentre) : 0.0;
+  return {std::exp(-height / kAirScaleHeight), std::exp(-height / kHazeScaleHeight), ozone};
 }
 
 SkySpectrum Atmosphere::extinction(const glm::dvec3& density) const {
@@ -144,7 +146,7 @@ glm::dvec2 Atmosphere::tableCoordinates(double radius, double mu) {
 }
 
 void Atmosphere::fillTable() {
-  tableSize_ = {128, 320};
+  tableSize_ = {160, 320};
   table_.resize(std::size_t(tableSize_.x) * tableSize_.y);
   const double rim = std::sqrt(kTopRadius * kTopRadius - kGroundRadius * kGroundRadius);
   tbb::parallel_for(0u, tableSize_.y, [&](unsigned row) {

@@ -12,7 +12,7 @@ namespace tyndall::light {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr unsigned kSuns = 33;   // odd: one with the sun on the horizon
+constexpr unsigned kSuns = 41;   // odd: one with the sun on the horizon
 constexpr unsigned kHeights = 16;
 constexpr int kAzimuths = 3;     // midpoints of [0, pi]
 constexpr int kSegments = 4;
@@ -22,9 +22,9 @@ constexpr std::array<double, 3> kGaussNode{0.238619186083197, 0.661209386466265,
 constexpr std::array<double, 3> kGaussWeight{0.467913934572691, 0.360761573048139, 0.171324492379170};
 
 // Denser near the ground and where the sun sets.
-double heightOf(double place) { return place * place * (Atmosphere::kTopRadius - Atmosphere::kGroundRadius); }
+double heightOf(double place) { return place * place * place * (Atmosphere::kTopRadius - Atmosphere::kGroundRadius); }
 double placeOfHeight(double height) {
-  return std::sqrt(std::clamp(height / (Atmosphere::kTopRadius - Atmosphere::kGroundRadius), 0.0, 1.0));
+  return std::cbrt(std::clamp(height / (Atmosphere::kTopRadius - Atmosphere::kGroundRadius), 0.0, 1.0));
 }
 double muOf(double place) { return std::copysign((2.0 * place - 1.0) * (2.0 * place - 1.0), place - 0.5); }
 double placeOfMu(double mu) { return std::clamp(0.5 + 0.5 * std::copysign(std::sqrt(std::abs(mu)), mu), 0.0, 1.0); }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/auto_scene.h"
 
-#include "light/atmosphere.h"
+#include "light/sky.h"
 #include "math/colour.h"
 #include "scene/auto_framing.h"
 #include "volume/depth.h"
@@ -18,7 +18,7 @@ namespace {
 
 constexpr unsigned kDepthLines = 400;
 constexpr double kCameraAzimuth = 32.0;   // degrees from +z towards +x: a three-quarter view
-constexpr double kCameraElevation = -4.0; // a little from below: the subject stands against the sky
+constexpr double kCameraElevation = -8.0; // a little from below: the subject stands against the sky
 constexpr double kSunAzimuth = 55.0;      // degrees from the camera's, over the viewer's left shoulder
 constexpr double kSunElevation = 35.0;
 constexpr double kTurbidity = 2.5;
@@ -153,10 +153,9 @@ std::vector<NamedLight> makeLights(bool glows) {
   const glm::dvec3 toSun = directionFrom(kCameraAzimuth - kSunAzimuth, kSunElevation);
   const double strength = glows ? kDusk : 1.0;
   SunLight sun;
-  sun.direction = -toSun;
-  sun.irradiance = strength * kSun *
-                   light::Atmosphere(kTurbidity).sunTransmittance(light::Atmosphere::kGroundRadius + 0.2, toSun.y);
   SkyEnvironment sky;
+  sun.direction = -toSun;
+  sun.irradiance = strength * kSun * light::makeSky(-toSun, kTurbidity, sky.groundAlbedo, {1, 2}).sunTransmittance;
   sky.sunDirection = -toSun;
   sky.turbidity = kTurbidity;
   sky.scale = strength * kSky;

@@ -4,6 +4,7 @@
 #include "gpu_scene/gpu_scene.h"
 #include "support/probe.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -27,7 +27,7 @@ struct MomentOptions {
   std::uint32_t replicates = 32;    ///< independent seeds, times effort()
   std::uint32_t samples = 16;       ///< per pixel and replicate; a multiple of 16 if above it
   std::uint32_t firstSeed = 1;
-  render::TracerOptions tracer;
+  render::TracerOptions tracer{};
 };
 
 /// Mean and standard error over the replicates, for every pixel (x fastest) of the whole image.

@@ -232,7 +232,7 @@ void shadeDistant(inout TraceState path, ScenePtr scene, Medium medium, vec3 ver
   } else {
     const vec4 mixture = distantMixture(scene, w);
     const float pdf = kPlantedBug == kBugBranchPdf ? light.selectPdf * distantPdfOf(light, w) : mixture.w + phase;
-    estimate = pdf > 0.0 ? mixture.xyz * (phase / pdf) : vec3(0.0);
+    estimate = pdf == 0.0 ? vec3(0.0) : mixture.xyz * (phase / pdf);
   }
   path.pending = medium.albedo * estimate * (path.vertexThroughput * homogeneousTransmittance(scene, vertex, w, kInfiniteDistance));
   walkSegment(path, scene, vertex, w, kInfiniteDistance, kWalkTransmit);
@@ -273,7 +273,7 @@ void stageLight(inout TraceState path, ScenePtr scene, inout Rng rng) {
   const vec4 mixture = distantMixture(scene, w);
   const float phase = evalPhase(medium.phase, path.cameraDirection, w);
   // Sampled by the phase function: its value and its pdf cancel.
-  const float weight = phase > 0.0 ? phase / (phase + mixture.w) : 0.0;
+  const float weight = phase == 0.0 ? 0.0 : phase / (phase + mixture.w);
   path.pending = medium.albedo * mixture.xyz * (weight * path.vertexThroughput * homogeneousTransmittance(scene, vertex, w, kInfiniteDistance));
   walkSegment(path, scene, vertex, w, kInfiniteDistance, kWalkTransmit);
   path.stage = kStageDirection;
