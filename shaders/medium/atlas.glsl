@@ -34,12 +34,18 @@ float gridVoxel(Grid grid, ivec3 voxel) {
   if (any(lessThan(voxel, ivec3(0))) || any(greaterThanEqual(brick, grid.brickCount))) {
     return 0.0;
   }
-  const Brick record = grid.bricks.at[brickIndex(grid, brick)];
-  if (record.texelBrick == kConstantBrick) {
-    return record.offset;
+  // Field by field: loads by address are what a lookup costs on CPU devices, and floats need only the first one.
+  const int index = brickIndex(grid, brick);
+  const uint texelBrick = grid.bricks.at[index].texelBrick;
+  if (texelBrick == kConstantBrick) {
+    return grid.bricks.at[index].offset;
   }
-  const ivec3 first = ivec3(record.texelBrick & 1023u, (record.texelBrick >> 10) & 1023u, record.texelBrick >> 20) << 3;
-  return record.offset + record.scale * atlasTexel(grid.format, first + (voxel & 7));
+  const ivec3 first = ivec3(texelBrick & 1023u, (texelBrick >> 10) & 1023u, texelBrick >> 20) << 3;
+  const float texel = atlasTexel(grid.format, first + (voxel & 7));
+  if ((kFormatMask & (1u << kFormatUint8)) != 0u && grid.format == kFormatUint8) {
+    return grid.bricks.at[index].offset + grid.bricks.at[index].scale * texel;
+  }
+  return texel;
 }
 
 // Trilinear value at a voxel-space point: 8 taps. For whatever is not linear in the lookup.

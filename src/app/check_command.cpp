@@ -34,6 +34,9 @@ int checkCommand(const std::string& path) {
   if (path.ends_with(".vdb")) {
     fail("{}: is a volume, not a scene; see what it holds with: tyndall info {}", path, path);
   }
+  if (!path.ends_with(".json")) {
+    fail("{}: is not a scene; name a .json file", path);
+  }
   const std::vector<scene::Problem> problems = problemsOf(path);
   std::size_t errors = 0;
   for (const scene::Problem& problem : problems) {
@@ -52,10 +55,10 @@ int checkCommand(const std::string& path) {
 } // namespace
 
 void addCheckCommand(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand(
-      "check", "Find every mistake in a scene (.json) and in the files it names, without rendering");
+  CLI::App* command =
+      app.add_subcommand("check", "Find every mistake in a scene (.json) and in the files it names, without rendering");
   auto path = std::make_shared<std::string>();
-  command->add_option("scene", *path, "Scene (.json)")->required();
+  command->add_option("scene", *path, "Scene (.json)")->required()->type_name("FILE");
   command->callback([path, &action] { action = [path] { return checkCommand(*path); }; });
 }
 

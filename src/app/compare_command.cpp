@@ -65,13 +65,22 @@ void addCompareCommand(CLI::App& app, Action& action) {
       "compare", "Differences of two EXR pictures, and whether they go beyond chance. Exit code 0: no; 1: yes, or "
                  "beyond a limit; 2: the pictures cannot be compared");
   auto arguments = std::make_shared<CompareArguments>();
-  command->add_option("image", arguments->image, "Picture (.exr)")->required();
-  command->add_option("reference", arguments->reference, "Picture it is measured against (.exr)")->required();
-  command->add_option("--difference", arguments->difference, "PNG to write: red where IMAGE is brighter, blue where darker");
-  command->add_option("--max-rrmse", arguments->maxRrmse,
-                      "Largest relative RMS difference that passes, as 1% or 0.01 (default: no limit)");
-  command->add_option("--max-bias", arguments->maxBias,
-                      "Largest relative difference of the means of R, G or B that passes (default: no limit)");
+  command->add_option("image", arguments->image, "Picture (.exr)")->required()->type_name("FILE");
+  command->add_option("reference", arguments->reference, "Picture it is measured against (.exr)")
+      ->required()
+      ->type_name("FILE");
+  command
+      ->add_option("--difference", arguments->difference,
+                   "PNG to write: red where IMAGE is brighter, blue where darker")
+      ->type_name("FILE");
+  command
+      ->add_option("--max-rrmse", arguments->maxRrmse,
+                   "Largest relative RMS difference that passes, as 1% or 0.01 (default: no limit)")
+      ->type_name("SHARE");
+  command
+      ->add_option("--max-bias", arguments->maxBias,
+                   "Largest relative difference of the means of R, G or B that passes (default: no limit)")
+      ->type_name("SHARE");
   command->callback([arguments, &action] { action = [arguments] { return compareCommand(*arguments); }; });
 }
 

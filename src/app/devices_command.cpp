@@ -19,7 +19,8 @@ std::string verdict(const gpu::DeviceInfo& device, std::optional<std::uint32_t> 
   if (!device.usable()) {
     return "cannot be used: lacks " + joinNames(device.missing);
   }
-  return device.index == chosen ? "usable; render takes this one" : fmt::format("usable; --device {} takes it", device.index);
+  return device.index == chosen ? "usable; render takes this one"
+                                : fmt::format("usable; --device {} takes it", device.index);
 }
 
 void print(const gpu::DeviceInfo& device, std::optional<std::uint32_t> chosen) {
@@ -30,14 +31,16 @@ void print(const gpu::DeviceInfo& device, std::optional<std::uint32_t> chosen) {
   line("Vulkan", device.apiVersion);
   line("memory", fmt::format("{}, at most {} in one allocation", inBytes(double(device.memoryBytes)),
                              inBytes(double(device.maxAllocation))));
-  line("limits", fmt::format("3D images up to {} texels an edge, subgroups of {}", device.maxImage3D, device.subgroupSize));
+  line("limits",
+       fmt::format("3D images up to {} texels an edge, subgroups of {}", device.maxImage3D, device.subgroupSize));
   line("verdict", verdict(device, chosen));
 }
 
 int devicesCommand(const DevicesArguments& arguments) {
   const std::vector<gpu::DeviceInfo> devices = gpu::listDevices();
   std::optional<std::uint32_t> chosen;
-  const bool anyUsable = std::any_of(devices.begin(), devices.end(), [](const gpu::DeviceInfo& d) { return d.usable(); });
+  const bool anyUsable =
+      std::any_of(devices.begin(), devices.end(), [](const gpu::DeviceInfo& d) { return d.usable(); });
   if (anyUsable) {
     // Opening one is the only sure way to know which one a render gets, and that it opens at all.
     chosen = gpu::Device(deviceOptions(arguments.select)).info().index;
@@ -57,7 +60,9 @@ int devicesCommand(const DevicesArguments& arguments) {
 void addDevicesCommand(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("devices", "The Vulkan devices, what each can do, and which one renders");
   auto arguments = std::make_shared<DevicesArguments>();
-  command->add_option("--device", arguments->select, "Number or part of a name, as for render: says which one that takes");
+  command
+      ->add_option("--device", arguments->select, "Number or part of a name, as for render: says which one that takes")
+      ->type_name("NAME");
   command->callback([arguments, &action] { action = [arguments] { return devicesCommand(*arguments); }; });
 }
 

@@ -5,8 +5,8 @@
 #include "volume/sequence.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cctype>
+#include <charconv>
 #include <set>
 
 namespace tyndall::app {
@@ -51,8 +51,8 @@ fs::path firstFile(const std::string& file) {
   }
   const std::vector<int> frames = framesPresent(file);
   if (frames.empty()) {
-    fail("{}: no frame of this sequence is there; {} would be the first, correct the name or the number of digits", file,
-         volume::frameFile(file, 1).string());
+    fail("{}: no frame of this sequence is there; {} would be the first, correct the name or the number of digits",
+         file, volume::frameFile(file, 1).string());
   }
   return volume::frameFile(file, frames.front());
 }

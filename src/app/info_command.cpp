@@ -30,9 +30,11 @@ bool isVolume(const std::string& path) {
   return stream.read(magic.data(), 4) && magic == " BDV";
 }
 
-template <class Summary> int print(const Summary& summary, bool json) {
+template <class Summary>
+int print(const Summary& summary, bool json) {
   // Names in files may be in any encoding; JSON is UTF-8.
-  fmt::print("{}", json ? toJson(summary).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n" : toText(summary));
+  fmt::print("{}", json ? toJson(summary).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"
+                        : toText(summary));
   return kDone;
 }
 
@@ -50,9 +52,10 @@ int infoCommand(const InfoArguments& arguments) {
 
 void addInfoCommand(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand(
-      "info", "What a volume (.vdb) or scene (.json) holds: grids, bounds, values, memory on the device, optical depth");
+      "info",
+      "What a volume (.vdb) or scene (.json) holds: grids, bounds, values, memory on the device, optical depth");
   auto arguments = std::make_shared<InfoArguments>();
-  command->add_option("file", arguments->file, "Volume (.vdb) or scene (.json)")->required();
+  command->add_option("file", arguments->file, "Volume (.vdb) or scene (.json)")->required()->type_name("FILE");
   command->add_flag("--json", arguments->json, "The same as JSON, for scripts; sizes in bytes");
   command->callback([arguments, &action] { action = [arguments] { return infoCommand(*arguments); }; });
 }

@@ -27,14 +27,16 @@ int run(int argc, char** argv, int& failureCode) {
     std::fputs(kShortHelp, stdout);
     return kWrongUsage;
   }
-  CLI::App app("Tyndall renders fog, smoke, clouds and fire. `tyndall COMMAND --help` lists a command's options.", "tyndall");
+  CLI::App app("Tyndall renders fog, smoke, clouds and fire. `tyndall COMMAND --help` lists a command's options.",
+               "tyndall");
   app.require_subcommand(1);
   app.fallthrough();
   app.set_version_flag("--version", "tyndall " TYNDALL_VERSION);
-  app.add_flag_callback("-v,--verbose", [] { spdlog::set_level(spdlog::level::debug); }, "Say more on stderr");
+  app.add_flag_callback(
+      "-v,--verbose", [] { spdlog::set_level(spdlog::level::debug); }, "Say more on stderr");
   Action action;
-  for (const auto add : {addRenderCommand, addInfoCommand, addCheckCommand, addCompareCommand, addMergeCommand,
-                         addDevicesCommand}) {
+  for (const auto add :
+       {addRenderCommand, addInfoCommand, addCheckCommand, addCompareCommand, addMergeCommand, addDevicesCommand}) {
     add(app, action);
   }
   try {

@@ -62,7 +62,8 @@ void checkOutputs(const MergeArguments& arguments) {
   const fs::path part = partFile(arguments.output);
   for (const std::string& input : arguments.parts) {
     std::error_code ignored;
-    if (fs::equivalent(input, arguments.output, ignored) || (arguments.mergeable && fs::equivalent(input, part, ignored))) {
+    if (fs::equivalent(input, arguments.output, ignored) ||
+        (arguments.mergeable && fs::equivalent(input, part, ignored))) {
       fail("{}: is a part and would be overwritten; name another output with -o", input);
     }
   }
@@ -89,8 +90,8 @@ int mergeCommand(const MergeArguments& arguments) {
   }
   const film::ErrorEstimate error = film::estimateError(merged);
   const glm::uvec2 extent = merged.window().extent();
-  fmt::print("{} parts: {}x{} pixels, estimated relative error {:.2f} % (90 % bound {:.2f} %)\n", parts.size(), extent.x,
-             extent.y, 100.0 * error.relative, 100.0 * error.upper);
+  fmt::print("{} parts: {}x{} pixels, estimated relative error {:.2f} % (90 % bound {:.2f} %)\n", parts.size(),
+             extent.x, extent.y, 100.0 * error.relative, 100.0 * error.upper);
   fmt::print("wrote {} and {}\n", files.exr.string(), files.png.string());
   if (files.report.nonFinitePixels > 0) {
     spdlog::error("{} pixels are not finite; render the parts again", files.report.nonFinitePixels);
@@ -105,11 +106,17 @@ void addMergeCommand(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand(
       "merge", "Join parts of one picture, rendered with other seeds or crops or elsewhere, into one EXR and PNG");
   auto arguments = std::make_shared<MergeArguments>();
-  command->add_option("parts", arguments->parts, "Files written by render --mergeable (PICTURE.exr.part)")->required();
-  command->add_option("-o,--output", arguments->output, "EXR to write; a PNG is written beside it")->required();
+  command->add_option("parts", arguments->parts, "Files written by render --mergeable (PICTURE.exr.part)")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("-o,--output", arguments->output, "EXR to write; a PNG is written beside it")
+      ->required()
+      ->type_name("FILE");
   command->add_flag("--mergeable", arguments->mergeable, "Write OUTPUT.part too, which can be merged on");
-  command->add_option("--exposure", arguments->exposure, "Stops, for the PNG (default: that of the parts)");
-  command->add_option("--view", arguments->view, "standard or filmic, for the PNG (default: that of the parts)");
+  command->add_option("--exposure", arguments->exposure, "Stops, for the PNG (default: that of the parts)")
+      ->type_name("STOPS");
+  command->add_option("--view", arguments->view, "standard or filmic, for the PNG (default: that of the parts)")
+      ->type_name("NAME");
   command->callback([arguments, &action] { action = [arguments] { return mergeCommand(*arguments); }; });
 }
 

@@ -10,8 +10,8 @@ namespace tyndall::app {
 
 /// How a film becomes an EXR and a PNG: what `render` takes from the scene and `merge` from the parts' headers.
 struct PictureSettings {
-  bool transparent = false;        ///< film::PictureOptions::transparent
-  bool opaqueBackground = false;   ///< film::PictureOptions::opaqueBackground
+  bool transparent = false;      ///< film::PictureOptions::transparent
+  bool opaqueBackground = false; ///< film::PictureOptions::opaqueBackground
   std::vector<std::string> aovs;
   film::PngOptions png;
 };
@@ -25,7 +25,7 @@ PictureSettings settingsOf(const film::Metadata& metadata);
 
 struct PictureFiles {
   std::filesystem::path exr;
-  std::filesystem::path png;       ///< beside the EXR, with its stem
+  std::filesystem::path png; ///< beside the EXR, with its stem
   film::PngReport report;
 };
 

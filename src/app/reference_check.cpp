@@ -36,7 +36,8 @@ public:
   }
 
 private:
-  template <class Work> void forEach(const json::Value& root, std::string_view key, const Work& work) {
+  template <class Work>
+  void forEach(const json::Value& root, std::string_view key, const Work& work) {
     const json::Value* list = root.find(key);
     if (list == nullptr || list->kind != json::Kind::Array) {
       return;
@@ -51,7 +52,8 @@ private:
 
   void report(const json::Value& at, const std::string& key, const std::string& message, bool warning = false) {
     problems_.push_back({{file_.string(), at.position.line, at.position.column},
-                         fmt::format("{}.{}: {}", current_, key, message), warning});
+                         fmt::format("{}.{}: {}", current_, key, message),
+                         warning});
   }
 
   /// The file that a value names; empty if it is not there.
@@ -84,7 +86,8 @@ private:
     try {
       const std::string file = firstFile(path).string();
       const auto known = volumes_.find(file);
-      return known != volumes_.end() ? &known->second : &volumes_.emplace(file, volume::inspectFile(file)).first->second;
+      return known != volumes_.end() ? &known->second
+                                     : &volumes_.emplace(file, volume::inspectFile(file)).first->second;
     } catch (const Error& error) {
       report(name, "file", error.what());
       return nullptr;
@@ -104,7 +107,9 @@ private:
     }
   }
 
-  void checkGrid(const json::Value& at, const std::string& key, const FileInfo& info) { checkGrid(at, key, info, at.text); }
+  void checkGrid(const json::Value& at, const std::string& key, const FileInfo& info) {
+    checkGrid(at, key, info, at.text);
+  }
 
   void checkGrid(const json::Value& at, const std::string& key, const FileInfo& info, const std::string& wanted) {
     std::vector<std::string> names;
@@ -116,16 +121,20 @@ private:
       names.push_back("\"" + grid.name + "\"");
     }
     const std::string nearest = nearestName("\"" + wanted + "\"", names);
-    report(at, key, fmt::format("{} has no grid \"{}\"{}; it has {}", info.path, wanted,
-                                nearest.empty() ? "" : "; did you mean " + nearest + "?",
-                                names.empty() ? "none" : joinNames(names)));
+    report(at, key,
+           fmt::format("{} has no grid \"{}\"{}; it has {}", info.path, wanted,
+                       nearest.empty() ? "" : "; did you mean " + nearest + "?",
+                       names.empty() ? "none" : joinNames(names)));
   }
 
   void checkUsable(const json::Value& at, const std::string& key, const FileInfo& info, const GridInfo& grid) {
     if (!grid.scalar) {
-      report(at, key, fmt::format("grid \"{}\" of {} cannot be rendered: {}; name a scalar grid", grid.name, info.path, grid.whyNot));
+      report(at, key,
+             fmt::format("grid \"{}\" of {} cannot be rendered: {}; name a scalar grid", grid.name, info.path,
+                         grid.whyNot));
     } else if (grid.empty()) {
-      report(at, key, fmt::format("grid \"{}\" of {} is empty and adds nothing to the picture", grid.name, info.path), true);
+      report(at, key, fmt::format("grid \"{}\" of {} is empty and adds nothing to the picture", grid.name, info.path),
+             true);
     }
   }
 
@@ -154,7 +163,8 @@ private:
       }
     }
     if (bad > 0) {
-      report(name, "file", fmt::format("{}: {} channel values are negative or not finite and count as 0", path, bad), true);
+      report(name, "file", fmt::format("{}: {} channel values are negative or not finite and count as 0", path, bad),
+             true);
     }
     if (sum == 0.0) {
       report(name, "file", fmt::format("{}: is black, so this light gives no light", path), true);
@@ -162,7 +172,7 @@ private:
   }
 
   std::filesystem::path file_;
-  std::string current_;                       ///< key path of the element being checked, "media.0"
+  std::string current_; ///< key path of the element being checked, "media.0"
   std::map<std::string, FileInfo> volumes_;
   std::vector<scene::Problem> problems_;
 };

@@ -51,7 +51,8 @@ std::vector<SceneFile> filesOf(const scene::Scene& scene) {
 std::string phaseText(const scene::Phase& phase) {
   for (const scene::PhaseName& known : scene::kPhases) {
     if (known.id == phase.id) {
-      const auto count = known.parameters.empty() ? 0 : 1 + std::count(known.parameters.begin(), known.parameters.end(), ' ');
+      const auto count =
+          known.parameters.empty() ? 0 : 1 + std::count(known.parameters.begin(), known.parameters.end(), ' ');
       std::string text(known.name);
       for (std::size_t i = 0; i < std::size_t(count); ++i) {
         text += fmt::format("{}{:g}", i == 0 ? " " : ", ", phase.parameters[i]);
@@ -64,9 +65,12 @@ std::string phaseText(const scene::Phase& phase) {
 
 std::string shapeText(const scene::Medium& medium) {
   switch (medium.shape) {
-  case scene::MediumShape::Unbounded: return "everywhere";
-  case scene::MediumShape::Box: return fmt::format("in the box {} to {}", inWords(medium.box.min), inWords(medium.box.max));
-  case scene::MediumShape::Sphere: return fmt::format("in the ball of radius {:g} about {}", medium.radius, inWords(medium.centre));
+  case scene::MediumShape::Unbounded:
+    return "everywhere";
+  case scene::MediumShape::Box:
+    return fmt::format("in the box {} to {}", inWords(medium.box.min), inWords(medium.box.max));
+  case scene::MediumShape::Sphere:
+    return fmt::format("in the ball of radius {:g} about {}", medium.radius, inWords(medium.centre));
   }
   return "";
 }
@@ -90,8 +94,8 @@ struct LightText {
     return fmt::format("point at {}, intensity {} W/sr", inWords(l.position), inWords(l.intensity));
   }
   std::string operator()(const scene::SunLight& l) const {
-    return fmt::format("sun towards {}, irradiance {} W/m2, {:g} degrees wide", inWords(l.direction), inWords(l.irradiance),
-                       l.angularDiameter);
+    return fmt::format("sun towards {}, irradiance {} W/m2, {:g} degrees wide", inWords(l.direction),
+                       inWords(l.irradiance), l.angularDiameter);
   }
   std::string operator()(const scene::ConstantEnvironment& l) const {
     return fmt::format("constant, radiance {} W/(m2 sr)", inWords(l.radiance));
@@ -100,7 +104,8 @@ struct LightText {
     return fmt::format("map {}, scale {:g}, rotated by {:g} degrees", l.file, l.scale, l.rotation);
   }
   std::string operator()(const scene::SkyEnvironment& l) const {
-    return fmt::format("sky, sun's light towards {}, turbidity {:g}, scale {:g}", inWords(l.sunDirection), l.turbidity, l.scale);
+    return fmt::format("sky, sun's light towards {}, turbidity {:g}, scale {:g}", inWords(l.sunDirection), l.turbidity,
+                       l.scale);
   }
 };
 
@@ -134,17 +139,20 @@ SceneSummary summariseScene(const scene::Scene& scene) {
 std::string toText(const SceneSummary& summary) {
   const scene::Scene& scene = summary.scene;
   std::string text = fmt::format("scene \"{}\"\n", scene.name);
-  const auto line = [&](const std::string& name, const std::string& value) { text += fmt::format("  {:<18}{}\n", name, value); };
+  const auto line = [&](const std::string& name, const std::string& value) {
+    text += fmt::format("  {:<18}{}\n", name, value);
+  };
   line("camera", cameraText(scene.camera));
-  line("film", fmt::format("{} x {} pixels, exposure {:+g} stops{}", scene.film.size.x, scene.film.size.y, scene.film.exposure,
-                           scene.film.transparent ? ", transparent" : ""));
-  line("render", fmt::format("{} samples per pixel, seed {}, depth {}", scene.render.samples, scene.render.seed, scene.render.depth));
+  line("film", fmt::format("{} x {} pixels, exposure {:+g} stops{}", scene.film.size.x, scene.film.size.y,
+                           scene.film.exposure, scene.film.transparent ? ", transparent" : ""));
+  line("render", fmt::format("{} samples per pixel, seed {}, depth {}", scene.render.samples, scene.render.seed,
+                             scene.render.depth));
   for (std::size_t i = 0; i < scene.media.size(); ++i) {
     line(label("medium", scene.media[i].name, i), mediumText(scene.media[i]));
   }
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-    line(label("light", scene.lights[i].name, i), std::visit(LightText{}, scene.lights[i].light) +
-                                                      (scene.lights[i].visible ? "" : ", not seen by the camera"));
+    line(label("light", scene.lights[i].name, i),
+         std::visit(LightText{}, scene.lights[i].light) + (scene.lights[i].visible ? "" : ", not seen by the camera"));
   }
   for (const SceneFile& file : summary.files) {
     line("file", fmt::format("{} ({}{}), for {}", file.path, inBytes(double(file.bytes)),

@@ -8,9 +8,9 @@
 namespace tyndall::app {
 
 struct SceneFile {
-  std::string path;               ///< as the scene has it; a pattern for a sequence
-  std::string use;                ///< "medium \"cloud\"", ...
-  std::uintmax_t bytes = 0;       ///< of a sequence: its first frame
+  std::string path;         ///< as the scene has it; a pattern for a sequence
+  std::string use;          ///< "medium \"cloud\"", ...
+  std::uintmax_t bytes = 0; ///< of a sequence: its first frame
   std::size_t frames = 1;
 };
 
@@ -18,7 +18,7 @@ struct PlannedGrid {
   std::string name;
   std::string storage;
   double bytes = 0.0;
-  Bounds3 worldBounds;            ///< in the file's own world
+  Bounds3 worldBounds; ///< in the file's own world
 };
 
 /// What `tyndall info SCENE.json` tells.

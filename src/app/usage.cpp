@@ -57,7 +57,8 @@ std::string usageMessage(const CLI::App& app, const CLI::ParseError& error) {
   for (const std::string& word : unknown) {
     if (word.starts_with('-') && word.size() > 1) {
       return &command == &app ? fmt::format("{} is not an option of the program itself; name a command first, as in: "
-                                            "tyndall render FILE {}", word, word)
+                                            "tyndall render FILE {}",
+                                            word, word)
                               : unknownOption(app, command, word);
     }
   }

@@ -32,7 +32,8 @@ GridPlan planOf(const BrickGrid& grid, const std::string& name) {
 
 /// The grid, or nothing if it is not wanted or has no active voxel.
 std::optional<BrickGrid> loadWanted(const volume::FileInfo& file, const std::string& name, bool signedValues) {
-  const auto found = std::find_if(file.grids.begin(), file.grids.end(), [&](const GridInfo& grid) { return grid.name == name; });
+  const auto found =
+      std::find_if(file.grids.begin(), file.grids.end(), [&](const GridInfo& grid) { return grid.name == name; });
   if (name.empty() || found == file.grids.end() || found->empty()) {
     return std::nullopt;
   }
@@ -77,11 +78,16 @@ Bounds3 worldBounds(const GridInfo& grid) {
   return transformed(grid.worldFromIndex, {glm::dvec3(grid.indexMin) - 0.5, glm::dvec3(grid.indexMax) + 0.5});
 }
 
-template <class Vector> std::string inWords(const Vector& v) { return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", double(v.x), double(v.y), double(v.z)); }
+template <class Vector>
+std::string inWords(const Vector& v) {
+  return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", double(v.x), double(v.y), double(v.z));
+}
 
 std::string gridText(const GridInfo& grid) {
   std::string text = fmt::format("\ngrid \"{}\"\n", grid.name);
-  const auto line = [&](const char* name, const std::string& value) { text += fmt::format("  {:<18}{}\n", name, value); };
+  const auto line = [&](const char* name, const std::string& value) {
+    text += fmt::format("  {:<18}{}\n", name, value);
+  };
   line("type", fmt::format("{}, {}{}", grid.type, grid.gridClass, grid.scalar ? "" : " (cannot be rendered)"));
   if (!grid.whyNot.empty()) {
     line("", grid.whyNot);
@@ -95,7 +101,8 @@ std::string gridText(const GridInfo& grid) {
     const Bounds3 world = worldBounds(grid);
     line("world bounds", fmt::format("{} to {}", inWords(world.min), inWords(world.max)));
   }
-  line("active", fmt::format("{} voxels, {} tiles, {} leaf bricks", grid.activeVoxels, grid.activeTiles, grid.leafBricks));
+  line("active",
+       fmt::format("{} voxels, {} tiles, {} leaf bricks", grid.activeVoxels, grid.activeTiles, grid.leafBricks));
   if (grid.scalar) {
     line("values", fmt::format("{:.6g} to {:.6g}, background {:.6g}", grid.minValue, grid.maxValue, grid.background));
   }
@@ -106,9 +113,10 @@ std::string gridText(const GridInfo& grid) {
 }
 
 std::string planText(const GridPlan& plan) {
-  std::string text = fmt::format("  {:<18}\"{}\" as {}: {}, {:.0f} % of the dense box ({}); worst voxel error {:.2g} of the maximum\n",
-                                 "on the device", plan.grid, volume::storageName(plan.storage), inBytes(plan.deviceBytes),
-                                 100.0 * plan.deviceBytes / plan.denseBytes, inBytes(plan.denseBytes), plan.quantisationError);
+  std::string text =
+      fmt::format("  {:<18}\"{}\" as {}: {}, {:.0f} % of the dense box ({}); worst voxel error {:.2g} of the maximum\n",
+                  "on the device", plan.grid, volume::storageName(plan.storage), inBytes(plan.deviceBytes),
+                  100.0 * plan.deviceBytes / plan.denseBytes, inBytes(plan.denseBytes), plan.quantisationError);
   for (const std::string& note : plan.notes) {
     text += fmt::format("  {:<18}\"{}\": {}\n", "note", plan.grid, note);
   }
@@ -118,8 +126,11 @@ std::string planText(const GridPlan& plan) {
 nlohmann::ordered_json toJson(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
 nlohmann::ordered_json toJson(const GridInfo& grid) {
-  nlohmann::ordered_json json{{"name", grid.name}, {"type", grid.type}, {"class", grid.gridClass},
-                              {"transform", grid.transform}, {"voxel_size", toJson(grid.voxelSize)}};
+  nlohmann::ordered_json json{{"name", grid.name},
+                              {"type", grid.type},
+                              {"class", grid.gridClass},
+                              {"transform", grid.transform},
+                              {"voxel_size", toJson(grid.voxelSize)}};
   for (int row = 0; row < 4; ++row) {
     for (int column = 0; column < 4; ++column) {
       json["world_from_index"].push_back(grid.worldFromIndex[column][row]);
@@ -158,12 +169,15 @@ VolumeSummary summariseVolume(const std::filesystem::path& path) {
 }
 
 std::string toText(const VolumeSummary& summary) {
-  std::string text = fmt::format("{}: OpenVDB {}, {} grid(s)\n", summary.file.path, summary.file.version, summary.file.grids.size());
+  std::string text =
+      fmt::format("{}: OpenVDB {}, {} grid(s)\n", summary.file.path, summary.file.version, summary.file.grids.size());
   for (const GridInfo& grid : summary.file.grids) {
     text += gridText(grid);
   }
   text += "\na bare render\n";
-  const auto line = [&](const char* name, const std::string& value) { text += fmt::format("  {:<18}{}\n", name, value); };
+  const auto line = [&](const char* name, const std::string& value) {
+    text += fmt::format("  {:<18}{}\n", name, value);
+  };
   if (!summary.choice.empty()) {
     line("takes", summary.choice);
   }
@@ -183,18 +197,27 @@ std::string toText(const VolumeSummary& summary) {
 }
 
 nlohmann::ordered_json toJson(const VolumeSummary& summary) {
-  nlohmann::ordered_json json{{"file", summary.file.path}, {"kind", "volume"}, {"format", summary.file.version},
-                              {"metadata", summary.file.metadata}, {"grids", nlohmann::ordered_json::array()}};
+  nlohmann::ordered_json json{{"file", summary.file.path},
+                              {"kind", "volume"},
+                              {"format", summary.file.version},
+                              {"metadata", summary.file.metadata},
+                              {"grids", nlohmann::ordered_json::array()}};
   for (const GridInfo& grid : summary.file.grids) {
     json["grids"].push_back(toJson(grid));
   }
-  nlohmann::ordered_json bare{{"choice", summary.choice}, {"nothing_to_render", summary.nothing},
+  nlohmann::ordered_json bare{{"choice", summary.choice},
+                              {"nothing_to_render", summary.nothing},
                               {"density_scale", summary.densityScale},
-                              {"median_optical_depth", summary.medianOpticalDepth}, {"notes", summary.notes}, {"grids", nlohmann::ordered_json::array()}};
+                              {"median_optical_depth", summary.medianOpticalDepth},
+                              {"notes", summary.notes},
+                              {"grids", nlohmann::ordered_json::array()}};
   for (const GridPlan& plan : summary.plans) {
-    bare["grids"].push_back({{"name", plan.grid}, {"storage", volume::storageName(plan.storage)},
-                             {"device_bytes", plan.deviceBytes}, {"dense_bytes", plan.denseBytes},
-                             {"quantisation_error", plan.quantisationError}, {"notes", plan.notes}});
+    bare["grids"].push_back({{"name", plan.grid},
+                             {"storage", volume::storageName(plan.storage)},
+                             {"device_bytes", plan.deviceBytes},
+                             {"dense_bytes", plan.denseBytes},
+                             {"quantisation_error", plan.quantisationError},
+                             {"notes", plan.notes}});
   }
   json["bare_render"] = std::move(bare);
   return json;

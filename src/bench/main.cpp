@@ -14,6 +14,7 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
+#include <ctime>
 #include <functional>
 
 /// Lookups, shadow rays and samples per second on one volume under a sun; lookups per camera path beside those of one
@@ -29,16 +30,24 @@ struct Options {
   std::string device;
 };
 
+/// Wall and process time: on a CPU device and a busy machine the second one is the repeatable figure.
+struct Cost {
+  double wall = 0.0;
+  double cpu = 0.0;
+};
+
 struct Figures {
-  double seconds = 0.0;
+  Cost cost;
   render::TraceTotals totals;
   std::size_t pixels = 0;
 };
 
-double secondsOf(const std::function<void()>& work) {
+Cost costOf(const std::function<void()>& work) {
   const auto start = std::chrono::steady_clock::now();
+  const std::clock_t cpuStart = std::clock();
   work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return {std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
+          double(std::clock() - cpuStart) / CLOCKS_PER_SEC};
 }
 
 double median(std::vector<double> values) {
@@ -94,25 +103,27 @@ Figures renderOnce(const gpu::Device& device, const scene::Scene& scene, const g
   options.tracer.deltaTracking = delta;
   render::RenderReport report;
   Figures figures;
-  figures.seconds = secondsOf([&] { render::renderFilm(device, scene, volumes, gpuScene, options, report); });
+  figures.cost = costOf([&] { render::renderFilm(device, scene, volumes, gpuScene, options, report); });
   figures.totals = report.totals;
   figures.pixels = report.mediaPixels;
   return figures;
 }
 
 void printRow(const char* name, const std::vector<Figures>& runs) {
-  std::vector<double> seconds;
-  for (const Figures& run : runs) {
-    seconds.push_back(run.seconds);
+  std::vector<double> wall;
+  std::vector<double> cpu;
+  for (const Figures& each : runs) {
+    wall.push_back(each.cost.wall);
+    cpu.push_back(each.cost.cpu);
   }
-  const double time = median(seconds);
-  const Figures& run = runs.front();
-  const double samples = double(run.totals.samples);
-  fmt::print("{:<28} {:>9.3f} {:>11.2f} {:>11.2f} {:>13.2f} {:>14.2f}\n", name, time, samples / time * 1e-6,
-             double(run.totals.lookups) / time * 1e-6, double(run.totals.segments) / time * 1e-6, double(run.totals.lookups) / samples);
+  const render::TraceTotals& totals = runs.front().totals;
+  const double samples = double(totals.samples);
+  const double time = median(wall);
+  fmt::print("{:<28} {:>8.3f} {:>8.3f} {:>11.2f} {:>12.2f} {:>12.2f} {:>15.2f}\n", name, time, median(cpu), samples / time * 1e-6,
+             double(totals.lookups) / time * 1e-6, double(totals.segments) / time * 1e-6, double(totals.lookups) / samples);
 }
 
-double bareLookups(const gpu::Device& device, const gpu_scene::GpuScene& gpuScene, const Options& options, double meanStep) {
+Cost bareLookups(const gpu::Device& device, const gpu_scene::GpuScene& gpuScene, const Options& options, double meanStep) {
   const std::array spec{gpu::SpecEntry{0, gpuScene.features().formatMask}};
   const gpu::Kernel kernel(device, k_bare_lookup_spirv, spec, gpuScene.images());
   const std::vector<std::uint32_t> order = render::dispatchOrder({glm::uvec2(0), glm::uvec2(options.size)});
@@ -121,18 +132,22 @@ double bareLookups(const gpu::Device& device, const gpu_scene::GpuScene& gpuScen
   constexpr std::uint32_t kLookups = 64;
   const interop::BareLookupInputs inputs{gpuScene.ptr(), pixels.ptr(), sums.ptr(), static_cast<std::uint32_t>(order.size()), kLookups, static_cast<float>(meanStep)};
   kernel.run(inputs, inputs.count);
-  std::vector<double> seconds;
+  std::vector<double> wall;
+  std::vector<double> cpu;
   for (std::uint32_t i = 0; i < options.repeats; ++i) {
-    seconds.push_back(secondsOf([&] { kernel.run(inputs, inputs.count); }));
+    const Cost cost = costOf([&] { kernel.run(inputs, inputs.count); });
+    wall.push_back(cost.wall);
+    cpu.push_back(cost.cpu);
   }
   const auto hits = std::count_if(sums.mapped().begin(), sums.mapped().end(), [](float sum) { return sum != 0.0f; });
-  return double(hits) * kLookups / median(seconds);
+  const double lookups = double(hits) * kLookups;
+  return {lookups / median(wall), lookups / median(cpu)};
 }
 
 int run(const Options& options) {
   const gpu::Device device({.select = options.device, .validation = false, .pipelineCache = {}});
   volume::BrickGrid grid;
-  const double loadSeconds = secondsOf([&] { grid = volume::loadGrid(options.volume, {}); });
+  const double loadSeconds = costOf([&] { grid = volume::loadGrid(options.volume, {}); }).wall;
   const scene::Scene scene = sunScene(options, grid);
   const gpu_scene::VolumeSet global = volumesOf(withGlobalMajorant(grid));
   const gpu_scene::VolumeSet local = volumesOf(std::move(grid));
@@ -141,7 +156,7 @@ int run(const Options& options) {
   fmt::print("{} on {}\n{} at {}x{}, load {:.3f} s, {} active voxels as {}, median optical depth {}\n\n", device.info().name, device.info().driver,
              options.volume, options.size, options.size, loadSeconds, local.grids[0].activeVoxels, volume::storageName(local.grids[0].storage), options.opticalDepth);
   std::array<std::vector<Figures>, 3> runs;
-  constexpr std::uint32_t kSamples = 2 * film::kBatchSamples;
+  constexpr std::uint32_t kSamples = 16;
   for (std::uint32_t i = 0; i <= options.repeats; ++i) { // the first round compiles and is dropped
     runs[0].push_back(renderOnce(device, scene, local, localScene, kSamples, false));
     runs[1].push_back(renderOnce(device, scene, local, localScene, kSamples, true));
@@ -150,12 +165,12 @@ int run(const Options& options) {
   for (std::vector<Figures>& each : runs) {
     each.erase(each.begin());
   }
-  fmt::print("{:<28} {:>9} {:>11} {:>11} {:>13} {:>14}\n", "", "seconds", "Msamples/s", "Mlookups/s", "Msegments/s", "lookups/sample");
+  fmt::print("{:<28} {:>8} {:>8} {:>11} {:>12} {:>12} {:>15}\n", "", "wall s", "CPU s", "Msamples/s", "Mlookups/s", "Mstages/s", "lookups/sample");
   printRow("weighted walk, majorant grid", runs[0]);
   printRow("delta tracking, majorant grid", runs[1]);
   printRow("delta tracking, one majorant", runs[2]);
-  const double ceiling = bareLookups(device, localScene, options, 8.0);
-  fmt::print("\nbare lookups along the camera rays: {:.1f} M/s\n", ceiling * 1e-6);
+  const Cost ceiling = bareLookups(device, localScene, options, 8.0);
+  fmt::print("\nbare lookups along the camera rays: {:.1f} M per second, {:.1f} M per CPU second\n", ceiling.wall * 1e-6, ceiling.cpu * 1e-6);
   fmt::print("lookups per sample, majorant grid over one majorant: {:.3f}\n", double(runs[1][0].totals.lookups) / double(runs[2][0].totals.lookups));
   return 0;
 }

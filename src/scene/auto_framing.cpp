@@ -128,11 +128,19 @@ double glowAlong(const VisibleVolume& volume, const glm::dvec3& origin, const gl
   const double tMin = std::max({nearest.x, nearest.y, nearest.z, 0.0});
   const double tMax = std::min({farthest.x, farthest.y, farthest.z});
   const auto maximum = double(grid.maximum());
+  const bool dimmed = volume.density != nullptr && !volume.density->empty();
+  const glm::dmat4 densityFromWorld =
+      dimmed ? glm::affineInverse(volume.worldFromMedium * volume.density->worldFromIndex) : glm::dmat4(1.0);
+  double depth = 0.0;
   const double stride = 1.0 / glm::length(step);
   double sum = 0.0;
   for (double t = tMin + 0.5 * stride; t < tMax; t += stride) {
     const double place = std::clamp(grid.value(start + t * step) / maximum, 0.0, 1.0) * kGlowSteps;
-    sum += stride * volume.glow[static_cast<std::size_t>(std::lround(place))];
+    sum += stride * volume.glow[static_cast<std::size_t>(std::lround(place))] * std::exp(-depth);
+    if (dimmed) {
+      const glm::dvec3 index(densityFromWorld * glm::dvec4(origin + t * direction, 1.0));
+      depth += stride * volume.densityScale * volume.density->value(index);
+    }
   }
   return sum;
 }

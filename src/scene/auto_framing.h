@@ -17,8 +17,8 @@ struct VisibleVolume {
 /// Luminance of a blackbody at `kelvinScale` * value, for values evenly spaced from 0 to `maximum`.
 std::vector<double> glowTable(double kelvinScale, double maximum);
 
-/// The luminance that the temperature grid adds to a ray from `origin` at an emission scale of 1, by samples a voxel
-/// apart. `direction` is unit.
+/// The luminance that the temperature grid adds to a ray from `origin` at an emission scale of 1, dimmed by the density
+/// before it; by samples a voxel apart. `direction` is unit.
 double glowAlong(const VisibleVolume& volume, const glm::dvec3& origin, const glm::dvec3& direction);
 
 struct FramingInput {

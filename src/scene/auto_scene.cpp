@@ -19,13 +19,17 @@ namespace {
 constexpr unsigned kDepthLines = 400;
 constexpr double kCameraAzimuth = 32.0;   // degrees from +z towards +x: a three-quarter view
 constexpr double kCameraElevation = -8.0; // a little from below: the subject stands against the sky
+constexpr double kElevationOfFlat = 22.0;
+constexpr double kFlat = 0.45;            // height over width
 constexpr double kSunAzimuth = 55.0;      // degrees from the camera's, over the viewer's left shoulder
-constexpr double kSunElevation = 35.0;
-constexpr double kTurbidity = 2.5;
-constexpr double kSun = 30.0;             // W/m2 above the atmosphere
-constexpr double kSky = 8.0;              // lower than the sun's: single scattering leaves the subject too dark
+constexpr double kSunElevation = 40.0;
+constexpr double kTurbidity = 2.0;
+constexpr double kSun = 48.0;             // W/m2 above the atmosphere
+constexpr double kSky = 7.0;              // lower than the sun's: single scattering leaves the subject too dark
 constexpr double kDusk = 0.12;            // of both, when the subject glows itself
-constexpr double kGlow = 1.2;             // luminance of the stronger glowing rays, W/(m2 sr)
+constexpr double kGlow = 0.5;             // luminance of the stronger glowing rays, W/(m2 sr)
+constexpr double kPlainGlow = 0.05;       // of the brightest ray
+constexpr double kLargestScale = 1e15;    // what a scene file takes
 constexpr double kColdestGlow = 500.0;    // a maximum below cannot be kelvin that glow
 constexpr double kMappedMaximum = 2000.0; // kelvin
 
@@ -122,8 +126,8 @@ std::vector<VisibleVolume> visibleVolumes(const AutoInput& input, const Medium& 
   return volumes;
 }
 
-/// The emission scale at which the stronger rays of the picture (the brightest tenth of those that glow) get the
-/// luminance kGlow.
+/// The emission scale at which the stronger rays of the picture (the brightest third of those that plainly glow) get
+/// the luminance kGlow.
 double glowScale(const std::vector<VisibleVolume>& volumes, const Camera& camera) {
   constexpr int kEdge = 32;
   const glm::dvec3 forward = glm::normalize(camera.target - camera.position);
@@ -141,12 +145,27 @@ double glowScale(const std::vector<VisibleVolume>& volumes, const Camera& camera
       }
     }
   }
+  const double brightest = glows.empty() ? 0.0 : *std::max_element(glows.begin(), glows.end());
+  std::erase_if(glows, [&](double glow) { return glow < kPlainGlow * brightest; });
   if (glows.empty()) {
     return 1.0;
   }
-  const auto strong = glows.begin() + static_cast<std::ptrdiff_t>(0.9 * double(glows.size() - 1));
+  const auto strong = glows.begin() + static_cast<std::ptrdiff_t>(0.67 * double(glows.size() - 1));
   std::nth_element(glows.begin(), strong, glows.end());
-  return *strong > 0.0 ? kGlow / *strong : 1.0;
+  return std::min(kGlow / *strong, kLargestScale);
+}
+
+/// Seen level, a flat thing hides its shape: it is seen from above, unless its name says that it floats.
+double cameraElevation(const AutoInput& input, const Medium& medium) {
+  Bounds3 bounds;
+  for (const AutoFrame& frame : input.frames) {
+    if (holdsSomething(frame.density)) {
+      bounds.extend(transformed(medium.worldFromMedium, frame.density->worldBounds()));
+    }
+  }
+  const glm::dvec3 size = bounds.empty() ? glm::dvec3(1.0) : bounds.size();
+  const bool flat = size.y < kFlat * std::max(size.x, size.z);
+  return flat && !nameHas(input, {"cloud", "cumul", "sky"}) ? kElevationOfFlat : kCameraElevation;
 }
 
 std::vector<NamedLight> makeLights(bool glows) {
@@ -175,7 +194,7 @@ AutoScene makeAutoScene(const AutoInput& input) {
   scaleDensity(input, result);
   addEmission(input, result);
 
-  const glm::dvec3 toCamera = directionFrom(kCameraAzimuth, kCameraElevation);
+  const glm::dvec3 toCamera = directionFrom(kCameraAzimuth, cameraElevation(input, scene.media.front()));
   const std::vector<VisibleVolume> volumes = visibleVolumes(input, scene.media.front());
   if (const std::optional<Camera> camera = frameSubject({volumes, toCamera, input.size})) {
     scene.camera = *camera;

@@ -23,7 +23,9 @@ std::string withLight(const std::string& light) {
 }
 
 void writeScenes(const fs::path& folder) {
-  const auto scene = [&](const std::string& name, const std::string& text) { writeFile(folder / (name + ".json"), text); };
+  const auto scene = [&](const std::string& name, const std::string& text) {
+    writeFile(folder / (name + ".json"), text);
+  };
   scene("sound", sceneText());
   scene("unclosed", R"({"media": [)");
   scene("no_comma", R"({"name": "a" "media": []})");
@@ -56,7 +58,8 @@ void writeScenes(const fs::path& folder) {
 
 void writePictures(const fs::path& folder) {
   const auto picture = [&](const std::string& name, glm::uvec2 size) {
-    film::Image image{.displaySize = size, .window = {glm::uvec2(0), size}, .channels = {}, .uintChannels = {}, .metadata = {}};
+    film::Image image{
+        .displaySize = size, .window = {glm::uvec2(0), size}, .channels = {}, .uintChannels = {}, .metadata = {}};
     for (const char* channel : {"R", "G", "B"}) {
       image.channels[channel].assign(image.window.pixelCount(), 0.5f);
     }

@@ -20,7 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// In the child between fork and exec: only what is safe there.
-[[noreturn]] void become(const std::vector<char*>& arguments, const char* folder, const std::string& out, const std::string& err) {
+[[noreturn]] void become(const std::vector<char*>& arguments, const char* folder, const std::string& out,
+                         const std::string& err) {
   const int outFile = ::open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   const int errFile = ::open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   constexpr int kCannotStart = 127;

@@ -9,11 +9,11 @@ namespace tyndall::test {
 
 /// How a run of the program ended.
 struct Outcome {
-  int exitCode = -1;        ///< -1 if a signal ended it
-  int signal = 0;           ///< 0 if it exited by itself
-  bool timedOut = false;    ///< it was ended for taking longer than kTimeoutSeconds
-  std::string output;       ///< stdout
-  std::string errors;       ///< stderr
+  int exitCode = -1;     ///< -1 if a signal ended it
+  int signal = 0;        ///< 0 if it exited by itself
+  bool timedOut = false; ///< it was ended for taking longer than kTimeoutSeconds
+  std::string output;    ///< stdout
+  std::string errors;    ///< stderr
 };
 
 inline constexpr int kTimeoutSeconds = 30;

@@ -5,6 +5,7 @@
 #include "film/merge.h"
 #include "render/film_fixture.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <array>

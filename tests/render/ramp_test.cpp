@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Optical depth along rays: linear ramps under affine maps (validation.md A4), regular tracking as the oracle on whole
 // volumes (A7), sound majorants (A11).
+#include "base/error.h"
 #include "film/statistics.h"
 #include "render/walk_probe.h"
 #include "support/oracle_radiance.h"
@@ -15,6 +16,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <iostream>
 #include <random>
 
 namespace tyndall::test {

@@ -5,6 +5,7 @@
 #include "support/oracle_radiance.h"
 #include "support/render_fixture.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <glm/gtc/matrix_transform.hpp>

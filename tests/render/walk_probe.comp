@@ -26,6 +26,11 @@ void main() {
     Rng rng = rngSeed(uvec2(invocation, 0u), i, io.seed);
     Walk walk = walkBegin(ray.origin, ray.direction, ray.tMax, io.mode, io.scene.at[0].homogeneousCount);
     WalkCounts counts = WalkCounts(0u, 0u, 1u << 30);
+    if (io.firstXi < 1.0) {
+      Grid grid = io.scene.at[0].grids.at[io.scene.at[0].media.at[walk.medium].densityGrid];
+      walkEnter(walk, grid, rng);
+      walk.tau = opticalDepthAt(io.firstXi * rngFloat(rng));
+    }
     walkAdvance(walk, io.scene, rng, counts);
     const bool hit = walk.tHit >= 0.0;
     const float transmittance = !kWeighted && io.mode == kWalkCollide ? (hit ? 0.0 : 1.0) : walk.transmittance;

@@ -65,6 +65,7 @@ WalkReport WalkProbe::run(const std::vector<ProbeSegment>& segments, const WalkC
   inputs.mode = wanted.mode;
   inputs.seed = wanted.seed;
   inputs.writeDistances = wanted.distances ? 1 : 0;
+  inputs.firstXi = wanted.firstXi;
   kernel_->run(inputs, static_cast<std::uint32_t>(invocations));
   WalkReport report;
   for (std::size_t i = 0; i < segments.size(); ++i) {

@@ -39,6 +39,7 @@ struct WalkCountsWanted {
   std::uint32_t mode = 1;         ///< 0 collide, 1 transmit: kWalk* of tracker/walk.glsl
   std::uint32_t seed = 1;
   bool distances = false;
+  float firstXi = 1.0f;           ///< < 1: condition on a first draw below it; segments must enter the first grid
 };
 
 /// Walks segments through a scene's grid media with the shipped tracker.

@@ -36,6 +36,7 @@ struct WalkInputs {
   uint mode;                // kWalkCollide or kWalkTransmit
   uint seed;
   uint writeDistances;      // 1: `distances` is there
+  float firstXi;            // < 1: the first optical depth is drawn with xi in (0, firstXi), to see rare collisions
 };
 
 GPU_END
