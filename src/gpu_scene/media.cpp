@@ -118,7 +118,8 @@ std::vector<float> coarsen(const BrickGrid& grid, const std::vector<float>& maxi
 /// A temperature grid whose maximum cannot be kelvin is mapped so that it peaks at kMappedMaximum.
 double temperatureScaleFor(const scene::Emission& emission, const BrickGrid& grid, std::vector<std::string>& notes) {
   const double maximum = grid.maximum();
-  if (!emission.temperatureAuto || maximum >= kColdestGlow || maximum <= 0.0) {
+  const bool asGiven = !emission.temperatureAuto || emission.temperatureScale != 1.0 || emission.temperatureOffset != 0.0;
+  if (asGiven || maximum >= kColdestGlow || maximum <= 0.0) {
     return emission.temperatureScale;
   }
   const double scale = kMappedMaximum / maximum;

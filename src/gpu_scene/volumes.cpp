@@ -79,13 +79,24 @@ public:
 
   void collectNotes() const {
     for (std::size_t i = 0; i < requests_.size(); ++i) {
-      for (const std::string& note : set_.grids[i].report.notes) {
-        set_.notes.push_back(fmt::format("{}: {}: {}", requests_[i].file, set_.grids[i].name, note));
+      const volume::LoadReport& report = set_.grids[i].report;
+      for (const std::string& note : report.notes) {
+        add(i, note);
+      }
+      if (report.nonFiniteVoxels > 0) {
+        add(i, fmt::format("warning: {} voxels are NaN or infinite and were set to 0", report.nonFiniteVoxels));
+      }
+      if (report.negativeVoxels > 0) {
+        add(i, fmt::format("warning: {} voxels are negative and were set to 0", report.negativeVoxels));
       }
     }
   }
 
 private:
+  void add(std::size_t i, const std::string& note) const {
+    set_.notes.push_back(fmt::format("{}: {}: {}", requests_[i].file, set_.grids[i].name, note));
+  }
+
   VolumeSet& set_;
   std::map<std::string, std::size_t> indices_;
   std::vector<Request> requests_;

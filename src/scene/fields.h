@@ -163,7 +163,7 @@ void fields(V& v, EmissionOf& view) {
   v.number("temperature_scale", emission.temperatureScale, Range{0.0, 1e9, "kelvin", true}, "per unit of the grid");
   v.number("temperature_offset", emission.temperatureOffset, Range{-1e6, 1e6, "kelvin"},
            "added: 273.15 for a grid in degrees Celsius");
-  v.flag("temperature_auto", emission.temperatureAuto, "map the maximum of a grid plainly not in kelvin to 2000 K");
+  v.flag("temperature_auto", emission.temperatureAuto, "where scale is 1 and offset 0, map a grid whose maximum is below 500 K to a maximum of 2000 K");
   v.applies(view.homogeneous && blackbody, "type \"blackbody\" in a medium of type \"homogeneous\"");
   v.required().number("temperature", emission.temperature, kKelvin, "of the whole medium");
   v.always();

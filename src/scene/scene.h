@@ -53,7 +53,7 @@ struct Emission {
   double scale = 1.0;
   double temperatureScale = 1.0;       ///< kelvin = scale * value + offset (blackbody)
   double temperatureOffset = 0.0;
-  bool temperatureAuto = false;        ///< a grid plainly not in kelvin: its maximum is mapped to 2000 K
+  bool temperatureAuto = true;         ///< scale 1 and offset 0, but a maximum too cold to glow: mapped to 2000 K
   double temperature = 0.0;            ///< kelvin, homogeneous blackbody
   bool tiedToAbsorption = false;       ///< j = sigma_a * emission instead of j = emission
 };
@@ -104,7 +104,7 @@ struct MapEnvironment {
   double rotation = 0.0;               ///< degrees about +y
 };
 
-/// Clear sky by single scattering in an exponential atmosphere, as a lat-long map made on load (sky.h).
+/// Clear sky, a lat-long map made on load (light/sky.h).
 struct SkyEnvironment {
   glm::dvec3 sunDirection{0.0, -1.0, 0.0}; ///< the way the sun's light travels
   double turbidity = 3.0;                  ///< haze, 1 (pure air) to 10

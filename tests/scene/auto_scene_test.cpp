@@ -52,8 +52,9 @@ double framedShare(const Scene& scene, const volume::BrickGrid& grid) {
       const double u = half * (2.0 * x - size.x) / size.y;
       const double v = half * (size.y - 2.0 * y) / size.y;
       const glm::dvec3 direction = glm::normalize(forward + u * right + v * up);
-      const double depth = volume::exactOpticalDepth(grid, mediumFromWorld * glm::dvec4(scene.camera.position, 1.0),
-                                                     mediumFromWorld * glm::dvec4(direction, 0.0), 0.0, INFINITY);
+      const double depth = volume::exactOpticalDepth(
+          grid, glm::dvec3(mediumFromWorld * glm::dvec4(scene.camera.position, 1.0)),
+          glm::dvec3(mediumFromWorld * glm::dvec4(direction, 0.0)), 0.0, INFINITY);
       if (1.0 - std::exp(-scene.media.front().densityScale * depth) > 0.05) {
         low = glm::min(low, glm::ivec2(x, y));
         high = glm::max(high, glm::ivec2(x, y));
