@@ -19,8 +19,14 @@ namespace {
 /// Where only a time or an error ends a render.
 constexpr std::uint32_t kNoSampleLimit = 1u << 30;
 
-std::string percent(double share) {
-  return std::isfinite(share) ? fmt::format("{:.2g} %", 100.0 * share) : std::string("unknown");
+std::string percent(double share) { return fmt::format("{:.2g} %", 100.0 * share); }
+
+std::string errorInWords(const film::ErrorEstimate& error) {
+  if (!std::isfinite(error.relative)) {
+    return "error not known from so few samples";
+  }
+  return fmt::format("error {} (below {} with 90 % confidence)", percent(error.relative),
+                     std::isfinite(error.upper) ? percent(error.upper) : "an unknown bound");
 }
 
 render::StopRule stopRule(const RenderRequest& request, const scene::Scene& scene) {
@@ -91,10 +97,10 @@ void writeFiles(const PictureContext& context, const Prepared& prepared, const O
 void sayWhatCameOut(const PictureContext& context, const RenderRecord& record, const OutputFiles& files) {
   const render::RenderReport& report = record.report;
   const double perPixel = double(report.totals.samples) / std::max(1.0, double(report.mediaPixels + report.backgroundPixels));
-  context.say(fmt::format("{:.3g} samples per pixel in {} (stopped by {}), error {} (below {} with 90 % confidence), "
-                          "{} of the PNG's pixels clipped",
-                          perPixel, formatDuration(report.seconds), report.stoppedBy, percent(record.error.relative),
-                          percent(record.error.upper), percent(record.png.clippedShare)));
+  context.say(fmt::format("{:.3g} samples per pixel in {} (stopped by {}), {}, {} of "
+                          "the PNG's pixels clipped",
+                          perPixel, formatDuration(report.seconds), report.stoppedBy, errorInWords(record.error),
+                          percent(record.png.clippedShare)));
   if (report.totals.negative > 0) {
     context.say(fmt::format("{} samples were negative, which this estimator may produce", report.totals.negative));
   }

@@ -101,7 +101,7 @@ Source makeUpSource(const RenderRequest& request, double memoryBudget, const Say
   std::transform(sets.begin(), sets.end(), std::back_inserter(input.frames), autoFrame);
   input.size = request.size.value_or(input.size);
   input.up = request.up.value_or(input.up);
-  input.opticalDepth = request.opticalDepth.value_or(input.opticalDepth);
+  input.opticalDepth = request.opticalDepth;
   input.densityScale = request.densityScale;
   const scene::AutoScene made = scene::makeAutoScene(input);
   for (const std::string& note : made.notes) {

@@ -202,6 +202,7 @@ private:
 
 Film renderFilm(const gpu::Device& device, const scene::Scene& scene, const gpu_scene::VolumeSet& volumes,
                 const gpu_scene::GpuScene& gpuScene, const RenderOptions& options, RenderReport& report) {
+  report = RenderReport{}; // one that says why an earlier render stopped would stop this one
   return Session(device, scene, volumes, gpuScene, options, report).run();
 }
 

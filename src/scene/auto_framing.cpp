@@ -16,7 +16,8 @@ namespace {
 
 constexpr double kFov = 30.0;             // degrees across the shorter side: little perspective distortion
 constexpr int kMapEdge = 40;              // rays a side
-constexpr int kRounds = 5;
+constexpr int kRounds = 4;
+constexpr double kOpaque = 30.0;          // optical depth behind which nothing shows
 constexpr double kVisibleDepth = 0.0513;  // -ln(1 - 0.05)
 constexpr double kVisibleGlow = 0.05;     // of the strongest
 constexpr int kGlowSteps = 256;
@@ -136,10 +137,17 @@ double glowAlong(const VisibleVolume& volume, const glm::dvec3& origin, const gl
   double sum = 0.0;
   for (double t = tMin + 0.5 * stride; t < tMax; t += stride) {
     const double place = std::clamp(grid.value(start + t * step) / maximum, 0.0, 1.0) * kGlowSteps;
-    sum += stride * volume.glow[static_cast<std::size_t>(std::lround(place))] * std::exp(-depth);
+    const double emitted = stride * volume.glow[static_cast<std::size_t>(std::lround(place))];
+    double stepDepth = 0.0;
     if (dimmed) {
       const glm::dvec3 index(densityFromWorld * glm::dvec4(origin + t * direction, 1.0));
-      depth += stride * volume.densityScale * volume.density->value(index);
+      stepDepth = stride * volume.densityScale * volume.density->value(index);
+    }
+    // What leaves a homogeneous step towards the viewer.
+    sum += emitted * std::exp(-depth) * (stepDepth > 1e-6 ? -std::expm1(-stepDepth) / stepDepth : 1.0);
+    depth += stepDepth;
+    if (depth > kOpaque) {
+      break;
     }
   }
   return sum;

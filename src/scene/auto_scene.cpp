@@ -12,10 +12,13 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 
 namespace tyndall::scene {
 namespace {
 
+constexpr double kOpticalDepth = 5.0;       // median: opaque in the middle, soft at the edge
+constexpr double kOpticalDepthOfFire = 3.5; // ... and less where something glows inside
 constexpr unsigned kDepthLines = 400;
 constexpr double kCameraAzimuth = 32.0;   // degrees from +z towards +x: a three-quarter view
 constexpr double kCameraElevation = -8.0; // a little from below: the subject stands against the sky
@@ -27,8 +30,10 @@ constexpr double kTurbidity = 2.0;
 constexpr double kSun = 48.0;             // W/m2 above the atmosphere
 constexpr double kSky = 7.0;              // lower than the sun's: single scattering leaves the subject too dark
 constexpr double kDusk = 0.12;            // of both, when the subject glows itself
-constexpr double kGlow = 0.5;             // luminance of the stronger glowing rays, W/(m2 sr)
-constexpr double kPlainGlow = 0.05;       // of the brightest ray
+constexpr double kGlow = 0.6;             // luminance of the stronger glowing rays, W/(m2 sr)
+constexpr std::size_t kStrongRays = 12;   // of 32 x 32
+constexpr double kPlainGlow = 0.3;        // of the brightest ray
+constexpr double kClearlyMore = 1.2;      // glow that is worth another view
 constexpr double kLargestScale = 1e15;    // what a scene file takes
 constexpr double kColdestGlow = 500.0;    // a maximum below cannot be kelvin that glow
 constexpr double kMappedMaximum = 2000.0; // kelvin
@@ -60,7 +65,9 @@ Medium makeMedium(const AutoInput& input) {
     medium.worldFromMedium = glm::rotate(glm::dmat4(1.0), glm::radians(-90.0), glm::dvec3(1.0, 0.0, 0.0));
   }
   const bool smoke = nameHas(input, {"smoke", "soot"});
-  medium.albedo = smoke ? glm::dvec3(0.86, 0.85, 0.84) : glm::dvec3(0.99);
+  medium.albedo = !input.grids.temperature.empty() ? glm::dvec3(0.7) // soot: fire shows through little white
+                  : smoke                          ? glm::dvec3(0.86, 0.85, 0.84)
+                                                   : glm::dvec3(0.99);
   medium.phase.id = PhaseId::TwoLobe;
   medium.phase.parameters = {0.6, -0.3, 0.6, 0.0};
   return medium;
@@ -79,7 +86,8 @@ void scaleDensity(const AutoInput& input, AutoScene& result) {
   }
   Medium& medium = result.scene.media.front();
   if (densest > 0.0) {
-    medium.densityScale = input.opticalDepth / densest;
+    const double standard = input.grids.temperature.empty() ? kOpticalDepth : kOpticalDepthOfFire;
+    medium.densityScale = input.opticalDepth.value_or(standard) / densest;
   }
   medium.densityScale = input.densityScale.value_or(medium.densityScale);
   result.medianOpticalDepth = densest * medium.densityScale;
@@ -101,6 +109,7 @@ void addEmission(const AutoInput& input, AutoScene& result) {
   Emission emission;
   emission.kind = Emission::Kind::Blackbody;
   emission.grid = input.grids.temperature;
+  emission.temperatureAuto = false;
   if (hottest < kColdestGlow) {
     emission.temperatureScale = kMappedMaximum / hottest;
     result.notes.push_back(fmt::format("grid '{}' is not in kelvin (maximum {:.4g}): its maximum is taken as {:.0f} K "
@@ -126,9 +135,9 @@ std::vector<VisibleVolume> visibleVolumes(const AutoInput& input, const Medium& 
   return volumes;
 }
 
-/// The emission scale at which the stronger rays of the picture (the brightest third of those that plainly glow) get
-/// the luminance kGlow.
-double glowScale(const std::vector<VisibleVolume>& volumes, const Camera& camera) {
+/// Glow at an emission scale of 1 along 32 x 32 rays of the picture's middle, of all frames; strongest first, without
+/// the rays that have none.
+std::vector<double> glowsSeen(const std::vector<VisibleVolume>& volumes, const Camera& camera) {
   constexpr int kEdge = 32;
   const glm::dvec3 forward = glm::normalize(camera.target - camera.position);
   const glm::dvec3 right = glm::normalize(glm::cross(forward, camera.up));
@@ -145,14 +154,42 @@ double glowScale(const std::vector<VisibleVolume>& volumes, const Camera& camera
       }
     }
   }
-  const double brightest = glows.empty() ? 0.0 : *std::max_element(glows.begin(), glows.end());
-  std::erase_if(glows, [&](double glow) { return glow < kPlainGlow * brightest; });
+  std::sort(glows.begin(), glows.end(), std::greater<>());
+  return glows;
+}
+
+/// The emission scale at which the stronger rays of the picture get the luminance kGlow: about one in a hundred, for
+/// hot cores are small, but none that is faint beside the brightest.
+double glowScale(const std::vector<double>& glows) {
   if (glows.empty()) {
     return 1.0;
   }
-  const auto strong = glows.begin() + static_cast<std::ptrdiff_t>(0.67 * double(glows.size() - 1));
-  std::nth_element(glows.begin(), strong, glows.end());
-  return std::min(kGlow / *strong, kLargestScale);
+  const double strong = std::max(glows[std::min<std::size_t>(kStrongRays, glows.size() - 1)], kPlainGlow * glows.front());
+  return std::min(kGlow / strong, kLargestScale);
+}
+
+/// Of the four three-quarter views the one that shows most of the glow (a fire may lie behind its smoke); the first one
+/// without any. The square root keeps one hot spot from outweighing a face that glows. Degrees.
+double cameraAzimuth(const FramingInput& framing, double elevation) {
+  const auto glows = [](const VisibleVolume& volume) { return volume.temperature != nullptr; };
+  const bool any = std::any_of(framing.frames.begin(), framing.frames.end(), glows);
+  const std::optional<Camera> first = any ? frameSubject(framing) : std::nullopt;
+  double best = kCameraAzimuth;
+  double most = 0.0;
+  for (int quarter = 0; first && quarter < 4; ++quarter) {
+    const double azimuth = kCameraAzimuth + 90.0 * quarter;
+    Camera camera = *first;
+    camera.position = camera.target + glm::distance(first->position, first->target) * directionFrom(azimuth, elevation);
+    double sum = 0.0;
+    for (const double glow : glowsSeen(framing.frames, camera)) {
+      sum += std::sqrt(glow);
+    }
+    if (sum > kClearlyMore * most) {
+      best = azimuth;
+      most = sum;
+    }
+  }
+  return best;
 }
 
 /// Seen level, a flat thing hides its shape: it is seen from above, unless its name says that it floats.
@@ -168,15 +205,16 @@ double cameraElevation(const AutoInput& input, const Medium& medium) {
   return flat && !nameHas(input, {"cloud", "cumul", "sky"}) ? kElevationOfFlat : kCameraElevation;
 }
 
-std::vector<NamedLight> makeLights(bool glows) {
-  const glm::dvec3 toSun = directionFrom(kCameraAzimuth - kSunAzimuth, kSunElevation);
+std::vector<NamedLight> makeLights(bool glows, double cameraAzimuthDegrees) {
+  const glm::dvec3 toSun = directionFrom(cameraAzimuthDegrees - kSunAzimuth, kSunElevation);
   const double strength = glows ? kDusk : 1.0;
   SunLight sun;
   SkyEnvironment sky;
   sun.direction = -toSun;
-  sun.irradiance = strength * kSun * light::makeSky(-toSun, kTurbidity, sky.groundAlbedo, {1, 2}).sunTransmittance;
+  sun.irradiance = strength * kSun * light::makeSky(-toSun, kTurbidity, glm::dvec3(0.0), {1, 2}).sunTransmittance;
   sky.sunDirection = -toSun;
   sky.turbidity = kTurbidity;
+  sky.groundAlbedo = glm::dvec3(0.12, 0.13, 0.12); // dark fields: the subject stands out
   sky.scale = strength * kSky;
   return {{"sun", sun, false}, {"sky", sky, true}};
 }
@@ -194,18 +232,21 @@ AutoScene makeAutoScene(const AutoInput& input) {
   scaleDensity(input, result);
   addEmission(input, result);
 
-  const glm::dvec3 toCamera = directionFrom(kCameraAzimuth, cameraElevation(input, scene.media.front()));
-  const std::vector<VisibleVolume> volumes = visibleVolumes(input, scene.media.front());
-  if (const std::optional<Camera> camera = frameSubject({volumes, toCamera, input.size})) {
+  FramingInput framing{visibleVolumes(input, scene.media.front()), {}, input.size};
+  const double elevation = cameraElevation(input, scene.media.front());
+  framing.toCamera = directionFrom(kCameraAzimuth, elevation);
+  const double azimuth = cameraAzimuth(framing, elevation);
+  framing.toCamera = directionFrom(azimuth, elevation);
+  if (const std::optional<Camera> camera = frameSubject(framing)) {
     scene.camera = *camera;
   } else {
     result.empty = true;
-    scene.camera.position = scene.camera.target + 5.0 * toCamera;
+    scene.camera.position = scene.camera.target + 5.0 * framing.toCamera;
   }
   if (std::optional<Emission>& emission = scene.media.front().emission) {
-    emission->scale = glowScale(volumes, scene.camera);
+    emission->scale = glowScale(glowsSeen(framing.frames, scene.camera));
   }
-  scene.lights = makeLights(scene.media.front().emission.has_value());
+  scene.lights = makeLights(scene.media.front().emission.has_value(), azimuth);
   return result;
 }
 

@@ -25,7 +25,7 @@ struct AutoInput {
   std::vector<AutoFrame> frames;       ///< one, or all of a sequence
   glm::uvec2 size{640, 480};
   UpAxis up = UpAxis::Y;
-  double opticalDepth = 5.0;           ///< median to aim at, of the densest frame
+  std::optional<double> opticalDepth;  ///< median to aim at, of the densest frame; within 3 to 8 if not given
   std::optional<double> densityScale;  ///< used as it is instead
 };
 

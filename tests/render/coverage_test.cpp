@@ -35,7 +35,7 @@ struct Misses {
 };
 
 Misses missesOf(const TestScene& test, const std::vector<bool>& mask) {
-  const Moments moments = renderMoments(test.scene, test.volumes, {.replicates = 2, .samples = 2048});
+  const Moments moments = renderMoments(test.scene, test.volumes, {.replicates = 2, .samples = 2048, .skip = mask});
   Misses misses;
   for (std::size_t i = 0; i < mask.size(); ++i) {
     if (!mask[i]) {

@@ -33,11 +33,10 @@ std::pair<double, double> reportedAndTrue(const TestScene& test, std::uint32_t s
   constexpr int kSeeds = 50;
   std::vector<std::vector<double>> values(std::size_t(test.scene.film.size.x) * test.scene.film.size.y);
   double reported = 0.0;
+  FilmRunner runner(test);
+  std::string stoppedBy;
   for (std::uint32_t seed = 0; seed < kSeeds; ++seed) {
-    render::RenderOptions options;
-    options.seed = seed;
-    options.stop.samples = samples;
-    const film::Film film = renderFilm(test, options);
+    const film::Film film = runner.run({.samples = samples, .seconds = {}, .error = {}}, seed, stoppedBy);
     for (std::size_t i = 0; i < values.size(); ++i) {
       values[i].push_back(film.mean(i, film::R));
       reported += film.varianceOfMean(i, film::R) / kSeeds;
@@ -63,19 +62,16 @@ TEST(StoppingByError, KeepsItsPromiseWithoutBias) {
   const TestScene test = puff();
   const std::size_t count = std::size_t(test.scene.film.size.x) * test.scene.film.size.y;
   const Moments truth = renderMoments(test.scene, test.volumes, {.replicates = 64, .samples = 256, .firstSeed = 900000});
-  constexpr double kTarget = 0.05;
+  constexpr double kTarget = 0.25; // some 500 samples
+  FilmRunner runner(test);
   const int runs = 40 * static_cast<int>(effort());
   int kept = 0;
   int byError = 0;
   std::vector<double> means;
   for (int run = 0; run < runs; ++run) {
-    render::RenderOptions options;
-    options.seed = static_cast<std::uint32_t>(run);
-    options.stop.samples = 1u << 14;
-    options.stop.error = kTarget;
-    render::RenderReport report;
-    const film::Film film = renderFilm(test, options, &report);
-    byError += report.stoppedBy == "error";
+    std::string stoppedBy;
+    const film::Film film = runner.run({.samples = 1u << 14, .seconds = {}, .error = kTarget}, static_cast<std::uint32_t>(run), stoppedBy);
+    byError += stoppedBy == "error";
     double squares = 0.0;
     double norm = 0.0;
     double mean = 0.0;

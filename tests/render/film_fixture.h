@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "render/pixel_order.h"
 #include "render/renderer.h"
 #include "support/probe.h"
 #include "support/render_scenes.h"
@@ -13,5 +14,36 @@ inline film::Film renderFilm(const TestScene& test, const render::RenderOptions&
   render::RenderReport own;
   return render::renderFilm(probeDevice(), test.scene, test.volumes, gpuScene, options, report != nullptr ? *report : own);
 }
+
+/// Films of one scene for many seeds with one pipeline: the renderer's loop over batches without mask and progress.
+class FilmRunner {
+public:
+  explicit FilmRunner(const TestScene& test)
+      : size_(test.scene.film.size), gpuScene_(probeDevice(), test.scene, test.volumes), tracer_(probeDevice(), gpuScene_, {}),
+        pixels_(render::dispatchOrder({glm::uvec2(0), size_})) {}
+
+  film::Film run(const render::StopRule& rule, std::uint32_t seed, std::string& stoppedBy) {
+    film::Film film(size_, {glm::uvec2(0), size_});
+    film.independentHalves = rule.error.has_value();
+    render::Schedule schedule(rule, film);
+    while (const std::optional<std::uint32_t> batch = schedule.next(film)) {
+      const std::uint32_t count = schedule.batchSamples(*batch);
+      const auto sums = tracer_.run(pixels_, {*batch * film::kBatchSamples, count}, seed);
+      for (std::size_t i = 0; i < pixels_.size(); ++i) {
+        film::BatchSums values;
+        std::copy(std::begin(sums[i].moments), std::end(sums[i].moments), values.moments.begin());
+        film.add((pixels_[i] & 0xffffu) + size_.x * (pixels_[i] >> 16), *batch, count, values);
+      }
+    }
+    stoppedBy = schedule.reason();
+    return film;
+  }
+
+private:
+  glm::uvec2 size_;
+  gpu_scene::GpuScene gpuScene_;
+  render::Tracer tracer_;
+  std::vector<std::uint32_t> pixels_;
+};
 
 } // namespace tyndall::test

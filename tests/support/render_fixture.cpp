@@ -23,11 +23,13 @@ void reportMessages() {
   }
 }
 
-std::vector<std::uint32_t> allPixels(const glm::uvec2& size) {
+std::vector<std::uint32_t> pixelsOf(const glm::uvec2& size, const std::vector<bool>& skip) {
   std::vector<std::uint32_t> pixels;
   for (std::uint32_t y = 0; y < size.y; ++y) {
     for (std::uint32_t x = 0; x < size.x; ++x) {
-      pixels.push_back(x | y << 16);
+      if (skip.empty() || !skip[x + std::size_t(size.x) * y]) {
+        pixels.push_back(x | y << 16);
+      }
     }
   }
   return pixels;
@@ -125,18 +127,18 @@ Moments renderMoments(const scene::Scene& scene, const gpu_scene::VolumeSet& vol
   set.uses.resize(scene.media.size());
   const gpu_scene::GpuScene gpuScene(probeDevice(), scene, set);
   render::Tracer tracer(probeDevice(), gpuScene, options.tracer);
-  const std::vector<std::uint32_t> pixels = allPixels(scene.film.size);
+  const std::vector<std::uint32_t> pixels = pixelsOf(scene.film.size, options.skip);
   Moments result;
   result.size = scene.film.size;
   result.replicates = options.replicates * effort();
-  result.pixels.resize(pixels.size());
+  result.pixels.resize(std::size_t(scene.film.size.x) * scene.film.size.y);
   // Welford's running moments: the values of all replicates would not fit for big pictures.
   for (std::uint32_t replicate = 0; replicate < result.replicates; ++replicate) {
     const auto means = renderReplicate(tracer, pixels, options.samples, options.firstSeed + replicate);
     std::array<double, 4> image{};
     for (std::size_t i = 0; i < pixels.size(); ++i) {
       for (std::size_t channel = 0; channel < 4; ++channel) {
-        film::SampleSummary& summary = result.pixels[i][channel];
+        film::SampleSummary& summary = result.pixels[(pixels[i] & 0xffffu) + scene.film.size.x * (pixels[i] >> 16)][channel];
         const double delta = means[i][channel] - summary.mean;
         summary.count += 1.0;
         summary.mean += delta / summary.count;

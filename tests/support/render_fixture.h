@@ -28,6 +28,7 @@ struct MomentOptions {
   std::uint32_t samples = 16;       ///< per pixel and replicate; a multiple of 16 if above it
   std::uint32_t firstSeed = 1;
   render::TracerOptions tracer{};
+  std::vector<bool> skip{};         ///< pixels (x fastest) that are not rendered and stay 0; empty: none
 };
 
 /// Mean and standard error over the replicates, for every pixel (x fastest) of the whole image.
