@@ -52,14 +52,21 @@ vec2 mediumInterval(Medium medium, vec3 origin, vec3 direction, float tMax) {
   return sphereInterval(localOrigin, localDirection, medium.shapeMin, medium.shapeMax.x, tMax);
 }
 
-// Optical depth through all homogeneous media between t = 0 and tMax, in closed form.
-float homogeneousDepth(ScenePtr scene, vec3 origin, vec3 direction, float tMax) {
+// Optical depth through the homogeneous media but `left` between t = 0 and tMax, in closed form.
+float homogeneousDepthWithout(ScenePtr scene, uint left, vec3 origin, vec3 direction, float tMax) {
   float tau = 0.0;
   [[dont_unroll]] for (uint i = 0u; i < scene.at[0].homogeneousCount; ++i) {
-    const vec2 interval = mediumInterval(scene.at[0].media.at[i], origin, direction, tMax);
-    tau += scene.at[0].media.at[i].sigmaT * max(interval.y - interval.x, 0.0);
+    if (i != left) {
+      const vec2 interval = mediumInterval(scene.at[0].media.at[i], origin, direction, tMax);
+      tau += scene.at[0].media.at[i].sigmaT * max(interval.y - interval.x, 0.0);
+    }
   }
   return tau;
+}
+
+// Optical depth through all homogeneous media between t = 0 and tMax, in closed form.
+float homogeneousDepth(ScenePtr scene, vec3 origin, vec3 direction, float tMax) {
+  return homogeneousDepthWithout(scene, 0xffffffffu, origin, direction, tMax);
 }
 
 #endif

@@ -58,7 +58,9 @@ public:
     }
     schedule.note(film_);
     noteProvenance();
-    saveCheckpoint();
+    if (options_.resume || report_.stoppedBy == "interrupt") {
+      saveCheckpoint(); // a picture that is done needs none, unless it is to be extended
+    }
     report_.totals = tracer_.totals();
     report_.seconds = secondsSince(start_);
     return std::move(film_);

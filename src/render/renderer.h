@@ -30,7 +30,7 @@ struct RenderOptions {
   StopRule stop;
   std::uint32_t seed = 0;
   TracerOptions tracer;
-  std::filesystem::path checkpoint;           ///< empty: none are written
+  std::filesystem::path checkpoint;           ///< empty: none are written; the last one when interrupted or resuming
   double checkpointSeconds = 20.0;
   bool resume = false;                        ///< go on from `checkpoint` if it is there
   std::string sceneHash;                      ///< what a checkpoint must agree with

@@ -99,8 +99,8 @@ void freeFlightVertex(inout TraceState path, Medium medium, vec2 interval, Scene
   path.vertexT = interval.x + s;
   // Transmittance through this medium cancels with the pdf; what is left is that of the others.
   const float ownDepth = medium.sigmaT * s;
-  const float depth = homogeneousDepth(scene, path.cameraOrigin, path.cameraDirection, path.vertexT);
-  const float others = exp(-max(depth - ownDepth, 0.0));
+  // Their depth is summed without this medium's: the difference would be noise where this one is opaque.
+  const float others = exp(-homogeneousDepthWithout(scene, path.vertexMedium, path.cameraOrigin, path.cameraDirection, path.vertexT));
   path.vertexThroughput = collided * others;
   path.vertexPdf = collided > 0.0 ? medium.sigmaT * exp(-ownDepth) / collided : 0.0;
   path.vertexLight = kAnyLight;
