@@ -19,6 +19,11 @@ function(tyndall_module name)
     PRIVATE ${ARG_PRIVATE_LIBS})
 endfunction()
 
+# tyndall_compile_quickly(TARGET): for code that runs once and includes much (Vulkan-Hpp, JSON, command line).
+function(tyndall_compile_quickly target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()
+
 # tyndall_add_kernel(TARGET FILE.comp): compiles FILE.comp to SPIR-V, validates it and embeds it.
 # TARGET gets the header kernels/<stem>.h with `const uint32_t k<stem>Spirv[]`.
 function(tyndall_add_kernel target source)

@@ -172,11 +172,12 @@ TEST(PhaseFunctions, EveryModelAgreesWithQuadratureInASlab) {
       {PhaseId::Rayleigh, {}},            {PhaseId::Draine, {0.5, 20.0, 0, 0}},        {PhaseId::Mie, {12.0, 0, 0, 0}}};
   for (const scene::Phase& phase : phases) {
     TestScene test({4, 4});
-    test.perspective({0.0, 0.0, -3.0}, {0.0, 0.0, 0.0}, 45.0);
+    // No light in or near the picture: the aureoles of peaked phase functions would need a finer quadrature.
+    test.perspective({0.0, 0.0, -3.0}, {0.0, 0.0, 0.0}, 20.0);
     test.box({-2.0, -2.0, -1.0}, {2.0, 2.0, 1.0}, 0.7, 0.9).phase = phase;
     test.sun({0.3, -0.5, 1.0}, 2.0);
     test.sun({0.0, -1.0, -0.4}, 1.0, 4.0);
-    test.point({1.0, 0.5, 3.0}, 5.0);
+    test.point({2.5, 1.5, 0.5}, 5.0);
     const OracleScene oracle(test.scene, test.volumes, {.relative = 1e-6});
     const auto reference = oracle.picture([&](const OracleRay& ray) { return oracle.radiance(ray); }, 4);
     EXPECT_AGREES(imageTest(renderMoments(test.scene, test.volumes, {.replicates = 128, .samples = 32}), meanOf(reference), 0, 1e-4)) << "\nphase " << static_cast<unsigned>(phase.id);
