@@ -52,6 +52,7 @@ public:
     source_ = readSource(request_, budget_, say());
     timings_.load = watch_.seconds() - timings_.start;
     checkCrop();
+    checkNothingOverwritten();
   }
 
   int run() {
@@ -67,6 +68,7 @@ public:
       const int code = renderPicture({request_, device_, interrupted_, say()}, prepared, outputFiles(request_, frame));
       exitCode = std::max(exitCode, code);
       if (interrupted_) {
+        exitCode = std::max(exitCode, frame == framesOf(request_).back() ? kDone : kInterrupted);
         break;
       }
     }
@@ -80,6 +82,28 @@ private:
         fmt::print("{}\n", text);
       }
     };
+  }
+
+  /// A picture must not be written over a volume or a map that it is made of.
+  void checkNothingOverwritten() const {
+    std::vector<std::string> read;
+    for (const scene::Medium& medium : source_.scene.media) {
+      read.push_back(medium.file);
+    }
+    for (const scene::NamedLight& light : source_.scene.lights) {
+      if (const auto* map = std::get_if<scene::MapEnvironment>(&light.light)) {
+        read.push_back(map->file);
+      }
+    }
+    const OutputFiles files = outputFiles(request_, framesOf(request_).front());
+    for (const std::string& input : read) {
+      for (const fs::path& output : {files.exr, files.png, files.checkpoint, files.part, files.statistics}) {
+        std::error_code missing;
+        if (!output.empty() && fs::equivalent(output, input, missing) && !missing) {
+          fail("{}: is read by the scene; name another output with -o", input);
+        }
+      }
+    }
   }
 
   void checkCrop() const {
@@ -132,6 +156,9 @@ private:
     source_.scene.film.exposure = chooseExposure(device_, prepared_->scene, *prepared_->gpuScene, tracerOptions(request_));
     timings_.exposure = watch.seconds();
     prepared_->timings.exposure = timings_.exposure;
+    if (preparedFrame_ != framesOf(request_).front()) {
+      prepared_.reset(); // the budget is for one frame
+    }
     say()(fmt::format("exposure {:+.1f} stops (override with --exposure)", source_.scene.film.exposure));
   }
 

@@ -6,6 +6,7 @@
 #include "app/render_progress.h"
 #include "app/render_text.h"
 #include "film/checkpoint.h"
+#include "film/merge.h"
 
 #include <spdlog/spdlog.h>
 
@@ -60,11 +61,9 @@ film::Film renderWithProgress(const PictureContext& context, const Prepared& pre
   return render::renderFilm(context.device, prepared.scene, prepared.volumes, *prepared.gpuScene, options, report);
 }
 
-/// Keeps the checkpoint of a picture that is to go on, and removes that of one that is done.
-void settleCheckpoint(const PictureContext& context, const film::Film& film, const OutputFiles& files, bool complete) {
-  if (context.request.resume || !complete) {
-    film::saveCheckpoint(files.checkpoint, film); // now with the counts
-  } else {
+/// Removes the checkpoint of a picture that is done, unless it is to be extended.
+void settleCheckpoint(const PictureContext& context, const OutputFiles& files, bool complete) {
+  if (!context.request.resume && complete) {
     std::error_code ignored;
     fs::remove(files.checkpoint, ignored);
   }
@@ -75,7 +74,7 @@ void writeFiles(const PictureContext& context, const Prepared& prepared, const O
   const Stopwatch watch;
   const scene::FilmSettings& settings = prepared.scene.film;
   record.error = film::estimateError(film);
-  for (const auto& [key, value] : pictureMetadata(record, film.metadata)) {
+  for (const auto& [key, value] : pictureMetadata(record)) {
     film.metadata[key] = value;
   }
   const PictureSettings picture{.transparent = settings.transparent,
@@ -87,19 +86,27 @@ void writeFiles(const PictureContext& context, const Prepared& prepared, const O
   if (!files.part.empty()) {
     film::saveCheckpoint(files.part, film);
   }
-  settleCheckpoint(context, film, files, record.report.stoppedBy != "interrupt");
+  settleCheckpoint(context, files, record.report.stoppedBy != "interrupt");
   record.timings.write = watch.seconds();
   if (!files.statistics.empty()) {
     writeText(files.statistics, statisticsJson(record, film.metadata));
   }
 }
 
-void sayWhatCameOut(const PictureContext& context, const RenderRecord& record, const OutputFiles& files) {
+/// Most samples of any pixel: pixels that see the background alone are done sooner.
+std::uint32_t samplesPerPixel(const film::Film& film) {
+  std::uint32_t most = 0;
+  for (const film::PixelState& pixel : film.pixels()) {
+    most = std::max(most, pixel.samples[0] + pixel.samples[1]);
+  }
+  return most;
+}
+
+void sayWhatCameOut(const PictureContext& context, const RenderRecord& record, const film::Film& film, const OutputFiles& files) {
   const render::RenderReport& report = record.report;
-  const double perPixel = double(report.totals.samples) / std::max(1.0, double(report.mediaPixels + report.backgroundPixels));
-  context.say(fmt::format("{:.3g} samples per pixel in {} (stopped by {}), {}, {} of "
+  context.say(fmt::format("{} samples per pixel in {} (stopped by {}), {}, {} of "
                           "the PNG's pixels clipped",
-                          perPixel, formatDuration(report.seconds), report.stoppedBy, errorInWords(record.error),
+                          samplesPerPixel(film), formatDuration(report.seconds), report.stoppedBy, errorInWords(record.error),
                           percent(record.png.clippedShare)));
   if (report.totals.negative > 0) {
     context.say(fmt::format("{} samples were negative, which this estimator may produce", report.totals.negative));
@@ -110,12 +117,13 @@ void sayWhatCameOut(const PictureContext& context, const RenderRecord& record, c
   }
 }
 
-int judge(const PictureContext& context, const RenderRecord& record, const OutputFiles& files) {
-  const render::TraceTotals& totals = record.report.totals;
-  if (totals.nonFinite > 0 || totals.majorantExceeded > 0) {
+int judge(const PictureContext& context, const RenderRecord& record, const film::Film& film, const OutputFiles& files) {
+  const std::uint64_t nonFinite = film::countOf(film.metadata, "nonFinite"); // of earlier runs too
+  const std::uint64_t majorantExceeded = film::countOf(film.metadata, "majorantExceeded");
+  if (nonFinite > 0 || majorantExceeded > 0) {
     spdlog::error("{}: the picture is not sound: {} samples were not finite and left out, {} lookups exceeded their "
                   "majorant; please report this with the scene, and use the picture with care",
-                  files.exr.string(), totals.nonFinite, totals.majorantExceeded);
+                  files.exr.string(), nonFinite, majorantExceeded);
     return kFailed;
   }
   if (record.report.stoppedBy == "interrupt") {
@@ -151,8 +159,8 @@ int renderPicture(const PictureContext& context, const Prepared& prepared, const
   const std::vector<std::string>& sceneNotes = prepared.gpuScene->notes();
   record.notes.insert(record.notes.end(), sceneNotes.begin(), sceneNotes.end());
   writeFiles(context, prepared, files, record, film);
-  sayWhatCameOut(context, record, files);
-  return judge(context, record, files);
+  sayWhatCameOut(context, record, film, files);
+  return judge(context, record, film, files);
 }
 
 } // namespace tyndall::app

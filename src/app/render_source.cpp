@@ -113,6 +113,9 @@ Source makeUpSource(const RenderRequest& request, double memoryBudget, const Say
   source.scene = accepted(scene::parseScene(scene::toJson(made.scene), request.input, "", request.overrides));
   if (!changesMedia(request.overrides)) {
     source.volumes = std::move(sets[made.densestFrame]);
+    if (!source.scene.media.front().emission) {
+      source.volumes->uses.front().emission.reset(); // a temperature grid too cold to glow
+    }
   }
   if (request.frames) {
     source.exposureFrame = request.frames->first + static_cast<int>(made.densestFrame);

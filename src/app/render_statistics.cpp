@@ -78,15 +78,6 @@ Json settingsJson(const RenderRecord& record) {
   return settings;
 }
 
-std::uint64_t countIn(const film::Metadata& metadata, const std::string& key) {
-  const auto entry = metadata.find(key);
-  std::uint64_t value = 0;
-  if (entry != metadata.end()) {
-    std::from_chars(entry->second.data(), entry->second.data() + entry->second.size(), value);
-  }
-  return value;
-}
-
 } // namespace
 
 std::string statisticsJson(const RenderRecord& record, const film::Metadata& metadata) {
@@ -129,19 +120,8 @@ std::string statisticsJson(const RenderRecord& record, const film::Metadata& met
   return root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-film::Metadata pictureMetadata(const RenderRecord& record, const film::Metadata& earlier) {
+film::Metadata pictureMetadata(const RenderRecord& record) {
   film::Metadata metadata;
-  const render::TraceTotals& totals = record.report.totals;
-  const auto count = [&](const char* name, std::uint64_t value) {
-    const std::string key = std::string(film::kCountPrefix) + name;
-    metadata[key] = std::to_string(countIn(earlier, key) + value);
-  };
-  count("nonFinite", totals.nonFinite);
-  count("majorantExceeded", totals.majorantExceeded);
-  count("negative", totals.negative);
-  count("samples", totals.samples);
-  count("lookups", totals.lookups);
-  count("segments", totals.segments);
   metadata["input"] = record.request.input;
   metadata["scene.name"] = record.scene.name;
   metadata["depth"] = std::to_string(record.scene.render.depth);

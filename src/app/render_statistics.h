@@ -37,6 +37,6 @@ struct RenderRecord {
 std::string statisticsJson(const RenderRecord& record, const film::Metadata& metadata);
 
 /// Flat keys for the EXR's header. The counts are those of this run plus `earlier` (of a resumed film).
-film::Metadata pictureMetadata(const RenderRecord& record, const film::Metadata& earlier);
+film::Metadata pictureMetadata(const RenderRecord& record);
 
 } // namespace tyndall::app

@@ -33,7 +33,7 @@ struct TileTest {
   double familyP = 1.0;              ///< Sidak; below CompareOptions::familyRate the pictures differ
 };
 
-/// Definitions: validation.md. Pixels with a non-finite colour on either side are counted and left out of the rest.
+/// Definitions: docs/conventions.md. Pixels with a non-finite colour on either side are counted and left out of the rest.
 struct Comparison {
   std::size_t pixels = 0;            ///< compared, so finite in both
   std::size_t nonFiniteImage = 0;

@@ -10,7 +10,7 @@ namespace tyndall::film {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kCoveredOpacity = 0.01;  // validation.md, rRMSE
+constexpr double kCoveredOpacity = 0.01;  // docs/conventions.md, rRMSE
 constexpr unsigned kLargestTile = 16;
 constexpr std::size_t kEnoughTiles = 32;
 constexpr double kConfidence = 0.9;

@@ -152,4 +152,9 @@ Film merge(const std::vector<NamedFilm>& films) {
   return merged;
 }
 
+std::uint64_t countOf(const Metadata& metadata, const std::string& name) {
+  const auto entry = metadata.find(kCountPrefix + name);
+  return entry == metadata.end() ? 0 : std::stoull(entry->second);
+}
+
 } // namespace tyndall::film

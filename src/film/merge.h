@@ -16,6 +16,8 @@ inline constexpr const char* kEndSampleKey = "samples.end";    ///< one past the
 inline constexpr const char* kPartsKey = "merge.parts";        ///< what a merged film is made of
 /// Keys that begin so are whole numbers that add up over the parts, e.g. "count.nonFinite".
 inline constexpr const char* kCountPrefix = "count.";
+/// The count "count.<name>"; 0 if it is not there.
+std::uint64_t countOf(const Metadata& metadata, const std::string& name);
 
 /// Which samples a film holds. Equal samples of a pixel are those of equal seed and index.
 struct Provenance {

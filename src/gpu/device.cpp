@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <fstream>
 
 namespace tyndall::gpu {
@@ -19,7 +18,8 @@ int preference(const DeviceInfo& info) {
 }
 
 bool matches(const DeviceInfo& info, const std::string& select) {
-  return select.empty() || select == std::to_string(info.index) || info.name.find(select) != std::string::npos;
+  const bool isIndex = select.find_first_not_of("0123456789") == std::string::npos;
+  return select.empty() || (isIndex ? select == std::to_string(info.index) : info.name.find(select) != std::string::npos);
 }
 
 DeviceInfo choose(const std::vector<DeviceInfo>& devices, const std::string& select) {

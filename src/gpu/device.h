@@ -26,7 +26,7 @@ struct DeviceInfo {
   bool usable() const { return missing.empty(); }
 };
 
-/// All devices of the machine. Empty without a Vulkan driver. @throws Error if the loader itself fails.
+/// All devices of the machine. @throws Error without a Vulkan driver.
 std::vector<DeviceInfo> listDevices();
 
 struct DeviceOptions {

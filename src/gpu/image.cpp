@@ -77,6 +77,10 @@ Image3D::Image3D(const Device& device, const glm::uvec3& extent, TexelFormat for
                                                 vk::SampleCountFlagBits::e1, vk::ImageTiling::eOptimal,
                                                 vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst});
   const vk::MemoryRequirements need = impl_->image.getMemoryRequirements();
+  if (need.size > owner.info.maxAllocation) {
+    fail("a 3D image of {:.1f} MB is beyond the device's largest allocation of {:.1f} MB; use a \"clip\" box or \"storage\": \"unorm8\"",
+         double(need.size) * 1e-6, double(owner.info.maxAllocation) * 1e-6);
+  }
   impl_->memory = owner.allocate(need, vk::MemoryPropertyFlagBits::eDeviceLocal, false);
   impl_->bytes = need.size;
   impl_->image.bindMemory(*impl_->memory, 0);

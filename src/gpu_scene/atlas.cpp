@@ -15,6 +15,8 @@ using volume::BrickGrid;
 using volume::kBrickEdge;
 using volume::kBrickVoxels;
 
+static_assert(volume::kBrickEdge == interop::kBrickEdge && volume::kCoarseEdge == interop::kCoarseEdge);
+
 constexpr std::uint32_t kMaxBricksPerAxis = 1024; // 10 bits each in Brick::texelBrick
 
 /// Bricks per axis of an atlas that holds `count` bricks.

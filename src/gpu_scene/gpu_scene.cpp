@@ -17,14 +17,14 @@ Features featuresOf(const scene::Scene& scene, const PackedMedia& media, const P
   features.homogeneous = media.homogeneousCount > 0;
   const auto gridMedia = media.media.size() - media.homogeneousCount;
   features.grids = gridMedia > 0;
-  features.overlapOfGrids = gridMedia > 1;
+  const auto dense = std::count_if(media.media.begin(), media.media.end(), [](const interop::Medium& medium) { return medium.densityGrid != interop::kNoGrid; });
+  features.overlapOfGrids = dense > 1;
   features.gridEmission = !media.emissive.empty();
   features.pointLights = !lights.points.empty();
   features.distantDeltas = lights.deltas;
   features.distantAreas = lights.areas;
   features.orthographic = scene.camera.kind == scene::Camera::Kind::Orthographic;
   features.background = lights.background;
-  features.constantBackground = lights.constantBackground;
   return features;
 }
 
@@ -37,7 +37,7 @@ GpuScene::GpuScene(const gpu::Device& device, const scene::Scene& scene, const V
   atlas_ = Atlas(device, volumes.grids);
   PackedLights lights = packLights(scene, bounds, centre_);
   features_ = featuresOf(scene, packed_, lights, atlas_.formatMask());
-  homogeneousCount_ = packed_.homogeneousCount;
+  loopCount_ = static_cast<std::uint32_t>(packed_.homogeneousCount + lights.points.size() + lights.distant.size());
   notes_ = packed_.notes;
   notes_.insert(notes_.end(), lights.notes.begin(), lights.notes.end());
 

@@ -6,7 +6,7 @@
 #include "gpu_scene/lights.h"
 #include "gpu_scene/media.h"
 #include "gpu_scene/volumes.h"
-#include "passes/trace/trace_io.h"
+#include "interop/scene.h"
 #include "scene/scene.h"
 
 #include <vector>
@@ -25,8 +25,7 @@ struct Features {
   bool distantAreas = false;
   bool orthographic = false;
   bool background = false;
-  bool constantBackground = true;    ///< the background needs no samples to be known
-  bool overlapOfGrids = false;       ///< more than one grid medium: delta tracking, see tracker/walk.glsl
+  bool overlapOfGrids = false;       ///< more than one medium with a density grid: delta tracking, see tracker/walk.glsl
 };
 
 /// A scene in device memory. Owns everything; kernels borrow addresses.
@@ -38,11 +37,11 @@ public:
   interop::Ptr<interop::Scene> ptr() const { return scene_.ptr(); }
   gpu::AtlasImages images() const { return atlas_.images(); }
   const Features& features() const { return features_; }
-  std::uint32_t homogeneousCount() const { return homogeneousCount_; }
+  /// Homogeneous media and lights: what a stage of the trace pass loops over.
+  std::uint32_t loopCount() const { return loopCount_; }
   const std::vector<std::string>& notes() const { return notes_; }
   /// World-space point that device coordinates are relative to.
   const glm::dvec3& centre() const { return centre_; }
-  const PackedMedia& packedMedia() const { return packed_; }
 
 private:
   void uploadGrids(const gpu::Device& device);
@@ -52,7 +51,7 @@ private:
   PackedMedia packed_;
   Atlas atlas_;
   Features features_;
-  std::uint32_t homogeneousCount_ = 0;
+  std::uint32_t loopCount_ = 0;
   std::vector<std::string> notes_;
   std::vector<gpu::Buffer<interop::Brick>> bricks_;
   std::vector<gpu::Buffer<float>> maxima_;

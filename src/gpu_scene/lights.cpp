@@ -23,6 +23,9 @@ constexpr glm::uvec2 kSkySize{512, 256};
 /// A light's share of the selection, however weak it seems beside the others.
 constexpr double kLeastShare = 1e-6;
 
+/// Degrees. Float directions resolve 1e-7 radians: a smaller disc would lose samples at its rim, and lights like a point.
+constexpr double kLeastDiameter = 0.01;
+
 class LightPacker {
 public:
   LightPacker(const Bounds3& bounds, const glm::dvec3& centre, PackedLights& out) : bounds_(bounds), centre_(centre), out_(out) {}
@@ -83,10 +86,9 @@ private:
     pointGuesses_.push_back(reach > 0.0 ? strength / (reach * reach) : strength);
   }
 
-  void addDistant(interop::DistantLight light, double irradiance, bool constant) {
+  void addDistant(interop::DistantLight light, double irradiance) {
     light.visible = visible_ ? 1 : 0;
     out_.background |= visible_ && light.kind != interop::kDistantDelta;
-    out_.constantBackground &= !visible_ || constant;
     out_.deltas |= light.kind == interop::kDistantDelta;
     out_.areas |= light.kind != interop::kDistantDelta;
     out_.distant.push_back(light);
@@ -101,7 +103,7 @@ private:
     light.toLight = -sun.direction;
     light.kind = interop::kDistantDelta;
     light.radiance = sun.irradiance;
-    if (sun.angularDiameter > 0.0) {
+    if (sun.angularDiameter >= kLeastDiameter) {
       const double halfAngle = glm::radians(0.5 * sun.angularDiameter);
       const double sine = std::sin(halfAngle);
       light.kind = interop::kDistantDisc;
@@ -109,7 +111,7 @@ private:
       // Irradiance on the perpendicular plane of a uniform disc: pi sin^2 L.
       light.radiance = sun.irradiance / (pi * sine * sine);
     }
-    addDistant(light, luminance(sun.irradiance), light.kind == interop::kDistantDelta);
+    addDistant(light, luminance(sun.irradiance));
   }
 
   void addLight(const scene::ConstantEnvironment& environment) {
@@ -119,7 +121,7 @@ private:
     interop::DistantLight light{};
     light.kind = interop::kDistantConstant;
     light.radiance = environment.radiance;
-    addDistant(light, 4.0 * pi * luminance(environment.radiance), true);
+    addDistant(light, 4.0 * pi * luminance(environment.radiance));
   }
 
   void addTable(light::EnvironmentTable table, double rotationDegrees) {
@@ -134,7 +136,7 @@ private:
     light.map = light::deviceMap(table, rotationDegrees, {}, {});
     const double power = table.power;
     out_.tables.push_back(std::move(table));
-    addDistant(light, power, false);
+    addDistant(light, power);
   }
 
   void addLight(const scene::MapEnvironment& map) {

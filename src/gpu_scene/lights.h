@@ -21,7 +21,6 @@ struct PackedLights {
   bool deltas = false;                          ///< a sun without angular size is there
   bool areas = false;                           ///< something at infinity that a direction can hit
   bool background = false;                      ///< a distant light is visible to the camera
-  bool constantBackground = true;               ///< ... and it is the same in all directions
   std::vector<std::string> notes;
 };
 

@@ -49,13 +49,17 @@ Medium commonFields(const scene::Medium& medium) {
 Medium packHomogeneous(const scene::Medium& medium, const glm::dvec3& centre) {
   Medium packed = commonFields(medium);
   packed.sigmaT = static_cast<float>(medium.sigmaT);
-  const glm::dmat4 mediumFromWorld = glm::inverse(medium.worldFromMedium) * glm::translate(glm::dmat4(1.0), centre);
+  // About the shape's own centre: its corners may be given far from the origin.
+  const bool sphere = medium.shape == scene::MediumShape::Sphere;
+  const glm::dvec3 middle = sphere ? medium.centre : medium.shape == scene::MediumShape::Box ? medium.box.centre() : glm::dvec3(0.0);
+  const glm::dmat4 mediumFromWorld = glm::translate(glm::dmat4(1.0), -middle) * glm::inverse(medium.worldFromMedium) *
+                                     glm::translate(glm::dmat4(1.0), centre);
   packed.mediumFromWorld = glm::mat4x3(glm::dmat4x3(mediumFromWorld));
   packed.shape = medium.shape == scene::MediumShape::Box ? interop::kShapeBox
                  : medium.shape == scene::MediumShape::Sphere ? interop::kShapeSphere
                                                                : interop::kShapeUnbounded;
-  packed.shapeMin = medium.shape == scene::MediumShape::Sphere ? medium.centre : medium.box.min;
-  packed.shapeMax = medium.shape == scene::MediumShape::Sphere ? glm::dvec3(medium.radius) : medium.box.max;
+  packed.shapeMin = sphere ? glm::dvec3(0.0) : medium.box.min - middle;
+  packed.shapeMax = sphere ? glm::dvec3(medium.radius) : medium.box.max - middle;
   if (medium.emission) {
     const scene::Emission& emission = *medium.emission;
     glm::dvec3 j = emission.scale * emission.colour;
@@ -140,7 +144,7 @@ public:
       const BrickGrid& grid = volumes_.grids[*use.density];
       packed.densityGrid = place(*use.density, medium, densityMaxima(grid));
     }
-    if (use.emission && !volumes_.grids[*use.emission].empty()) {
+    if (medium.emission && use.emission && !volumes_.grids[*use.emission].empty()) {
       addEmission(medium, *use.emission, packed);
     }
     if (packed.densityGrid == interop::kNoGrid && packed.emissionGrid == interop::kNoGrid) {
@@ -228,7 +232,6 @@ PackedMedia packMedia(const scene::Scene& scene, const VolumeSet& volumes, const
     out.phaseMask |= 1u << static_cast<unsigned>(medium.phase.id);
     if (medium.homogeneous()) {
       out.media.push_back(packHomogeneous(medium, centre));
-      out.homogeneousEmission |= medium.emission.has_value();
     }
   }
   out.homogeneousCount = static_cast<std::uint32_t>(out.media.size());

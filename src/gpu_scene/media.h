@@ -18,6 +18,7 @@ Bounds3 sceneBounds(const scene::Scene& scene, const VolumeSet& volumes);
 /// A grid on the device but for its addresses. World space is centred on `centre`.
 interop::Grid packGrid(const volume::BrickGrid& grid, const glm::dmat4& worldFromMedium, const glm::dvec3& centre);
 
+/// Parameters as the device's model takes them (a droplet's diameter becomes its fit).
 interop::Phase packPhase(const scene::Phase& phase);
 
 /// The device's media: homogeneous ones first, empty grids left out. Grid indices count the *placed* grids in
@@ -34,11 +35,12 @@ struct PackedMedia {
   std::vector<std::uint32_t> emissive;
   std::uint32_t homogeneousCount = 0;
   std::uint32_t phaseMask = 0;
-  bool homogeneousEmission = false;
   std::vector<std::string> notes;   ///< e.g. how a temperature grid was mapped to kelvin
 };
+/// @param centre the world point that device coordinates are relative to.
 PackedMedia packMedia(const scene::Scene& scene, const VolumeSet& volumes, const glm::dvec3& centre);
 
+/// The camera's rays over an image of `imageSize` pixels.
 interop::Camera packCamera(const scene::Camera& camera, const glm::uvec2& imageSize, const glm::dvec3& centre);
 
 } // namespace tyndall::gpu_scene

@@ -11,6 +11,8 @@ namespace {
 
 using volume::Storage;
 
+constexpr float kLargestHalf = 65504.0f;
+
 std::optional<Storage> storageNamed(const std::string& name) {
   for (const Storage storage : {Storage::Unorm8, Storage::Half, Storage::Float}) {
     if (name == volume::storageName(storage)) {
@@ -68,7 +70,9 @@ public:
   /// Loads the automatic grids again in a narrower format.
   void narrow(Storage storage) {
     for (std::size_t i = 0; i < requests_.size(); ++i) {
-      if (requests_[i].automatic && volume::bytesPerVoxel(set_.grids[i].storage) > volume::bytesPerVoxel(storage)) {
+      const bool narrower = volume::bytesPerVoxel(set_.grids[i].storage) > volume::bytesPerVoxel(storage);
+      const bool representable = storage != Storage::Half || set_.grids[i].maximum() <= kLargestHalf;
+      if (requests_[i].automatic && narrower && representable) {
         requests_[i].options.storage = storage;
         set_.grids[i] = volume::loadGrid(requests_[i].file, requests_[i].options);
         set_.grids[i].report.notes.push_back(fmt::format("stored as {} to fit the memory budget (worst voxel error {:.2g} of the maximum)",

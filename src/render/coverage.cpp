@@ -140,7 +140,7 @@ std::vector<bool> mediaCoverage(const scene::Scene& scene, const gpu_scene::Volu
     if (volumes.uses[i].density && !volumes.grids[*volumes.uses[i].density].empty()) {
       markGrid(mask, medium.worldFromMedium, volumes.grids[*volumes.uses[i].density], 0.0);
     }
-    if (volumes.uses[i].emission && !volumes.grids[*volumes.uses[i].emission].empty()) {
+    if (medium.emission && volumes.uses[i].emission && !volumes.grids[*volumes.uses[i].emission].empty()) {
       markGrid(mask, medium.worldFromMedium, volumes.grids[*volumes.uses[i].emission], medium.emission->temperatureOffset);
     }
   }

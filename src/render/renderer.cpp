@@ -41,32 +41,65 @@ public:
     report_.backgroundPixels = order_.size() - report_.mediaPixels;
     report_.spec = tracer_.spec();
     report_.kernelBytes = tracer_.kernelBytes();
+    for (const auto& [key, text] : film_.metadata) {
+      if (key.starts_with(film::kCountPrefix)) {
+        countsBefore_[key] = std::stoull(text);
+      }
+    }
   }
 
   Film run() {
     Schedule schedule(options_.stop, film_);
-    while (const std::optional<std::uint32_t> batch = schedule.next(film_)) {
+    while (const std::optional<std::uint32_t> batch = schedule.next(collected())) {
+      splitOff(schedule);
+      pictureTakesBatch_ = !schedule.stopped(*batch % 2);
       runBatch(*batch, schedule.batchSamples(*batch));
-      schedule.note(film_);
       if (!report_.stoppedBy.empty()) {
         break;
       }
-      error_ = film::estimateError(film_).relative;
+      updateError();
     }
     if (report_.stoppedBy.empty()) {
       report_.stoppedBy = schedule.reason();
     }
-    schedule.note(film_);
     noteProvenance();
-    if (options_.resume || report_.stoppedBy == "interrupt") {
-      saveCheckpoint(); // a picture that is done needs none, unless it is to be extended
+    const bool interrupted = report_.stoppedBy == "interrupt";
+    if (!interrupted) {
+      schedule.note(film_);
     }
+    // A picture that is done needs no checkpoint, unless it is to be extended; one that was interrupted while only
+    // decisions were collected has one from before the first stop.
+    if (interrupted ? !decisions_ : options_.resume) {
+      saveCheckpoint();
+    }
+    noteCounts();
     report_.totals = tracer_.totals();
     report_.seconds = secondsSince(start_);
     return std::move(film_);
   }
 
 private:
+  /// The film with every batch in it: what decisions rest on.
+  const Film& collected() const { return decisions_ ? *decisions_ : film_; }
+
+  /// From the first stop of a half on, picture and decisions have films of their own. The checkpoint stays at the state
+  /// before, from which the same decisions follow.
+  void splitOff(const Schedule& schedule) {
+    if (schedule.anyStopped() && !decisions_) {
+      saveCheckpoint();
+      decisions_ = film_;
+    }
+  }
+
+  /// For the progress line; reading all pixels after every batch would cost more than it tells.
+  void updateError() {
+    constexpr double kSecondsBetween = 1.0;
+    if (secondsSince(start_) - lastError_ >= kSecondsBetween) {
+      lastError_ = secondsSince(start_);
+      error_ = film::estimateError(film_).relative;
+    }
+  }
+
   Film startFilm(const gpu::Device& device) const {
     Film film(scene_.film.size, wholeOr(options_.crop, scene_.film.size));
     film.independentHalves = options_.stop.error.has_value();
@@ -99,7 +132,7 @@ private:
   /// Samples of batch `batch` that the pixel has already.
   std::uint32_t samplesInBatch(std::uint32_t pixel, std::uint32_t batch) const {
     const std::uint32_t before = (batch / 2) * kBatchSamples;
-    const std::uint32_t have = film_.pixels()[filmIndex(pixel)].samples[batch % 2];
+    const std::uint32_t have = collected().pixels()[filmIndex(pixel)].samples[batch % 2];
     return have <= before ? 0 : have - before;
   }
 
@@ -128,7 +161,13 @@ private:
         report_.firstDispatchSeconds = secondsSince(start_);
       }
       for (std::size_t i = 0; i < count; ++i) {
-        film_.add(filmIndex(chunk[i]), batch, samples.count, toBatchSums(sums[i]));
+        const BatchSums batchSums = toBatchSums(sums[i]);
+        if (pictureTakesBatch_) {
+          film_.add(filmIndex(chunk[i]), batch, samples.count, batchSums);
+        }
+        if (decisions_) {
+          decisions_->add(filmIndex(chunk[i]), batch, samples.count, batchSums);
+        }
       }
       afterChunk(batch, double(first + count) / double(pixels.size()));
     }
@@ -167,8 +206,19 @@ private:
     } else if (options_.stop.seconds && seconds >= *options_.stop.seconds && (batch > 0 || done >= 1.0)) {
       report_.stoppedBy = "time"; // but every pixel gets its first batch
     }
-    if (seconds - lastCheckpoint_ >= options_.checkpointSeconds) {
+    if (seconds - lastCheckpoint_ >= options_.checkpointSeconds && !decisions_) {
       saveCheckpoint();
+    }
+  }
+
+  /// Rare events add up over all runs that went into the film.
+  void noteCounts() {
+    const TraceTotals& totals = tracer_.totals();
+    const std::map<std::string, std::uint64_t> now{{"count.nonFinite", totals.nonFinite}, {"count.majorantExceeded", totals.majorantExceeded},
+                                                   {"count.negative", totals.negative}, {"count.lookups", totals.lookups},
+                                                   {"count.segments", totals.segments}, {"count.samples", totals.samples}};
+    for (const auto& [key, count] : now) {
+      film_.metadata[key] = std::to_string(countsBefore_[key] + count);
     }
   }
 
@@ -183,6 +233,7 @@ private:
   void saveCheckpoint() {
     lastCheckpoint_ = secondsSince(start_);
     if (!options_.checkpoint.empty()) {
+      noteCounts();
       film::saveCheckpoint(options_.checkpoint, film_, {});
     }
   }
@@ -198,6 +249,10 @@ private:
   std::vector<std::uint32_t> order_;
   double error_ = std::numeric_limits<double>::infinity();
   double lastCheckpoint_ = 0.0;
+  double lastError_ = 0.0;
+  bool pictureTakesBatch_ = true;
+  std::optional<Film> decisions_;
+  std::map<std::string, std::uint64_t> countsBefore_;  ///< of earlier runs, from the checkpoint
 };
 
 } // namespace

@@ -49,7 +49,8 @@ struct RenderReport {
   std::string stoppedBy;                      ///< "samples", "time", "error" or "interrupt"
 };
 
-/// Renders until the rule says stop. With a checkpoint the result is bit-identical to an uninterrupted render.
+/// Renders until the rule says stop. With a checkpoint the result is bit-identical to an uninterrupted render (a picture
+/// of a sample count that is not a multiple of 16 can be extended, but not to the same bits).
 /// @throws Error if the checkpoint belongs to another scene, size or seed.
 film::Film renderFilm(const gpu::Device& device, const scene::Scene& scene, const gpu_scene::VolumeSet& volumes,
                       const gpu_scene::GpuScene& gpuScene, const RenderOptions& options, RenderReport& report);

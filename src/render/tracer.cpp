@@ -12,11 +12,22 @@ namespace {
 constexpr std::uint32_t kChunkOnCpu = 16384;
 constexpr std::uint32_t kChunkOnGpu = 262144;
 
+/// Well below what old Mesa cuts (65535 iterations), and on a GPU below what its watchdog allows.
+constexpr std::uint32_t kStepsOnCpu = 16384;
+constexpr std::uint32_t kStepsOnGpu = 2048;
+
 std::uint32_t chunkFor(const gpu::Device& device, const TracerOptions& options) {
   if (options.chunkPixels > 0) {
     return options.chunkPixels;
   }
   return device.info().type == "cpu" ? kChunkOnCpu : kChunkOnGpu;
+}
+
+std::uint32_t stepBoundFor(const gpu::Device& device, const TracerOptions& options) {
+  if (options.stepBound > 0) {
+    return options.stepBound;
+  }
+  return device.info().type == "cpu" ? kStepsOnCpu : kStepsOnGpu;
 }
 
 } // namespace
@@ -40,7 +51,7 @@ passes::TraceSpec traceSpecFor(const gpu_scene::Features& features, const Tracer
 }
 
 Tracer::Tracer(const gpu::Device& device, const gpu_scene::GpuScene& scene, const TracerOptions& options)
-    : scene_(scene), options_(options), spec_(traceSpecFor(scene.features(), options)), pass_(device, spec_, scene.images()),
+    : scene_(scene), stepBound_(stepBoundFor(device, options)), spec_(traceSpecFor(scene.features(), options)), pass_(device, spec_, scene.images()),
       pixels_(device, chunkFor(device, options), gpu::Memory::Host), sums_(device, pixels_.size(), gpu::Memory::Host),
       counters_(device, 1, gpu::Memory::Host) {
   for (gpu::Buffer<interop::TraceState>& queue : suspended_) {
@@ -74,8 +85,8 @@ std::span<const interop::PixelSums> Tracer::run(std::span<const std::uint32_t> p
   inputs.firstSample = samples.first;
   inputs.sampleCount = samples.count;
   inputs.seed = seed;
-  inputs.stageCost = 1 + scene_.homogeneousCount();
-  inputs.stepBound = std::max(options_.stepBound, 2 * inputs.stageCost);
+  inputs.stageCost = 1 + scene_.loopCount();
+  inputs.stepBound = std::max(stepBound_, 2 * inputs.stageCost);
   for (std::uint32_t round = 0; inputs.count > 0; ++round) {
     inputs.suspendedIn = suspended_[(round + 1) % 2].ptr();
     inputs.suspendedOut = suspended_[round % 2].ptr();

@@ -14,7 +14,7 @@ struct TracerOptions {
   bool aovs = false;
   bool deltaTracking = false;          ///< distances by delta tracking even where the weighted walk would serve
   std::uint32_t chunkPixels = 0;       ///< pixels of one dispatch; 0 = by the device's kind
-  std::uint32_t stepBound = 16384;     ///< steps of one invocation in one dispatch
+  std::uint32_t stepBound = 0;         ///< steps of one invocation in one dispatch; 0 = by the device's kind
   std::uint32_t plantedBug = 0;        ///< tests only: interop::kBug*
 };
 
@@ -58,7 +58,7 @@ private:
   void collect(const interop::TraceCounters& counters);
 
   const gpu_scene::GpuScene& scene_;
-  TracerOptions options_;
+  std::uint32_t stepBound_;
   passes::TraceSpec spec_;
   passes::TracePass pass_;
   gpu::Buffer<std::uint32_t> pixels_;

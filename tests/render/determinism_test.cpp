@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One seed, one picture, bit for bit (validation.md A12): whatever the dispatch size, step bound, crops, interruptions
+// One seed, one picture, bit for bit (docs/theory.md A12): whatever the dispatch size, step bound, crops, interruptions
 // and threads.
 #include "film/checkpoint.h"
 #include "film/merge.h"

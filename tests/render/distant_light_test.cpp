@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lights at infinity (validation.md A14): environments, suns with a diameter, maps; all by MIS.
+// Lights at infinity (docs/theory.md A14): environments, suns with a diameter, maps; all by MIS.
 #include "film/exr.h"
 #include "support/oracle_radiance.h"
 #include "support/render_fixture.h"

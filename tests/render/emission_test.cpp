@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Emission (validation.md A13): slabs, the isothermal cavity, heat without density, a steep temperature ramp.
+// Emission (docs/theory.md A13): slabs, the isothermal cavity, heat without density, a steep temperature ramp.
 #include "light/blackbody.h"
 #include "support/oracle_radiance.h"
 #include "support/render_fixture.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Free flight through grids (validation.md A8b): Kolmogorov-Smirnov test of delta tracking's distances against
+// Free flight through grids (docs/theory.md A8b): Kolmogorov-Smirnov test of delta tracking's distances against
 // sigma_t(t) T(t), and the share that leaves, with tight, loose and per-cell majorants.
 #include "film/statistics.h"
 #include "render/walk_probe.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What must not change a picture (validation.md A10), and agreement of the two trackers.
+// What must not change a picture (docs/theory.md A10), and agreement of the two trackers.
 #include "support/render_fixture.h"
 #include "support/render_scenes.h"
 
@@ -147,7 +147,7 @@ TEST(Invariance, OfIndexOffsets) {
 TEST(Invariance, OfStorageWithinItsStatedError) {
   const TestScene reference = puffScene(puffGrid());
   for (const auto storage : {volume::Storage::Unorm8, volume::Storage::Half}) {
-    // Optical depths agree to 1 % (volumes.md section 2): so do pictures of optical depth about 1.
+    // Optical depths agree to 1 % (docs/scene-format.md): so do pictures of optical depth about 1.
     EXPECT_AGREES(compare(reference, puffScene(puffGrid(glm::ivec3(0), storage)), 0.01)) << volume::storageName(storage);
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Optical depth along rays: linear ramps under affine maps (validation.md A4), regular tracking as the oracle on whole
+// Optical depth along rays: linear ramps under affine maps (docs/theory.md A4), regular tracking as the oracle on whole
 // volumes (A7), sound majorants (A11).
 #include "base/error.h"
 #include "film/statistics.h"

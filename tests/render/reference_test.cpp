@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures against closed forms and quadrature: airlight (validation.md A1), the box under a directional light (A2),
+// Pictures against closed forms and quadrature: airlight (docs/theory.md A1), the box under a directional light (A2),
 // every phase function.
 #include "support/oracle_radiance.h"
 #include "support/render_fixture.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers that must survive (volumes.md section 8; docs/numbers-that-survive.md lists which line is which test):
+// Numbers that must survive (docs/numbers-that-survive.md lists which line is which test):
 // no sample is lost, everything is finite, and right where there is a closed form.
 #include "render/film_fixture.h"
 #include "support/oracle_radiance.h"

@@ -21,7 +21,7 @@ struct OracleSettings {
   int azimuths = 24;
 };
 
-/// Single scattering by quadrature in double, volumes.md section 4: exact optical depths, adaptive integration along the
+/// Single scattering by quadrature in double, docs/theory.md (1): exact optical depths, adaptive integration along the
 /// ray, Gauss-Legendre rules over discs and spheres of directions. Slow and simple. Lights: point, sun, constant.
 class OracleScene {
 public:

@@ -6,7 +6,7 @@
 //                         light; balance heuristic between the two [Veach95; Kulla12]
 //   the rest              a point on the ray in each emissive grid
 // and at each vertex one light sample and, where lights have an extent, one phase sample, joined by the balance
-// heuristic. volumes.md's equation of section 4 is their sum.
+// heuristic. Equation (1) of docs/theory.md is their sum.
 #ifndef TYNDALL_TRACE_STAGES_GLSL
 #define TYNDALL_TRACE_STAGES_GLSL
 
@@ -27,7 +27,8 @@ const uint kStageDirection = 7u; // the segment along the phase sample has been 
 const uint kStageDone = 8u;
 
 // A walk that is over at once: nothing lies between this stage and the next one.
-void noWalk(inout TraceState path) { path.walk.medium = 0xfffffffeu; }
+const uint kNoWalk = 0xfffffffeu;
+void noWalk(inout TraceState path) { path.walk.medium = kNoWalk; }
 
 void walkSegment(inout TraceState path, ScenePtr scene, vec3 origin, vec3 direction, float tMax, uint mode) {
   path.walk = walkBegin(origin, direction, tMax, mode, scene.at[0].homogeneousCount);

@@ -104,7 +104,7 @@ void main() {
       done = true;
       break;
     }
-    ++segments;
+    segments += uint(path.walk.medium != kNoWalk);
     if (counts.stepsLeft <= io.stageCost) {
       break;
     }

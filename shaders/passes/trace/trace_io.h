@@ -38,7 +38,6 @@ GPU_CONST uint kBugPhaseSign = 2;       // g with the wrong sign
 GPU_CONST uint kBugNoInverse4Pi = 3;    // phase function not normalised
 GPU_CONST uint kBugBranchPdf = 4;       // MIS weight from the chosen technique's pdf alone
 GPU_CONST uint kBugPlainLog = 5;        // -log(1 - xi)
-GPU_CONST uint kBugLooseSupport = 6;    // majorant without the one-voxel support
 GPU_CONST uint kBugOneTapBlackbody = 7; // Planck of a stochastic lookup
 GPU_CONST uint kBugJacobian = 8;        // point light without 1 / r^2
 
@@ -120,7 +119,7 @@ struct TraceInputs {
   uint sampleCount;                // samples of this batch to take
   uint seed;
   uint stepBound;                  // cells and collisions per invocation and dispatch
-  uint stageCost;                  // steps that a stage counts for: 1 + homogeneous media
+  uint stageCost;                  // steps that a stage counts for: 1 + what it loops over
   uint resume;                     // 1: go on with suspendedIn
 };
 
