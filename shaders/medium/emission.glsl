@@ -3,9 +3,9 @@
 #ifndef TYNDALL_MEDIUM_EMISSION_GLSL
 #define TYNDALL_MEDIUM_EMISSION_GLSL
 
+#include "interop/scene.h"
 #include "light/blackbody.glsl"
 #include "medium/atlas.glsl"
-#include "interop/scene.h"
 
 // Emission of a grid medium at a centred world point. All 8 taps first, then Planck: it is not linear.
 vec3 gridEmission(ScenePtr scene, uint mediumIndex, vec3 point, inout Rng rng) {

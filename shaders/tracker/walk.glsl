@@ -186,7 +186,8 @@ void walkStep(inout Walk walk, Grid grid, float sigmaScale, inout Rng rng, inout
       skipCoarse(walk, grid, coarse);
     }
   }
-  if (walk.t >= walk.tEnd || any(lessThan(walk.brick, ivec3(0))) || any(greaterThanEqual(walk.brick, grid.brickCount))) {
+  if (walk.t >= walk.tEnd || any(lessThan(walk.brick, ivec3(0))) ||
+      any(greaterThanEqual(walk.brick, grid.brickCount))) {
     walkLeave(walk);
   }
 }

@@ -45,8 +45,7 @@ std::vector<std::optional<int>> framesOf(const RenderRequest& request) {
 class RenderSession {
 public:
   explicit RenderSession(const RenderRequest& request)
-      : request_(request), interrupted_(catchInterrupts()),
-        device_(deviceOptions(request.device)),
+      : request_(request), interrupted_(catchInterrupts()), device_(deviceOptions(request.device)),
         budget_(volumeBudget(request, device_)) {
     timings_.start = watch_.seconds();
     source_ = readSource(request_, budget_, say());
@@ -153,7 +152,8 @@ private:
     prepared_ = prepare(source_.exposureFrame);
     preparedFrame_ = source_.exposureFrame;
     const Stopwatch watch;
-    source_.scene.film.exposure = chooseExposure(device_, prepared_->scene, *prepared_->gpuScene, tracerOptions(request_));
+    source_.scene.film.exposure =
+        chooseExposure(device_, prepared_->scene, *prepared_->gpuScene, tracerOptions(request_));
     timings_.exposure = watch.seconds();
     prepared_->timings.exposure = timings_.exposure;
     if (preparedFrame_ != framesOf(request_).front()) {
@@ -179,7 +179,7 @@ private:
   double budget_;
   Timings timings_;
   Source source_;
-  std::optional<Prepared> prepared_;      ///< what the exposure was chosen from
+  std::optional<Prepared> prepared_; ///< what the exposure was chosen from
   std::optional<int> preparedFrame_;
 };
 

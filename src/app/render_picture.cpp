@@ -102,12 +102,13 @@ std::uint32_t samplesPerPixel(const film::Film& film) {
   return most;
 }
 
-void sayWhatCameOut(const PictureContext& context, const RenderRecord& record, const film::Film& film, const OutputFiles& files) {
+void sayWhatCameOut(const PictureContext& context, const RenderRecord& record, const film::Film& film,
+                    const OutputFiles& files) {
   const render::RenderReport& report = record.report;
   context.say(fmt::format("{} samples per pixel in {} (stopped by {}), {}, {} of "
                           "the PNG's pixels clipped",
-                          samplesPerPixel(film), formatDuration(report.seconds), report.stoppedBy, errorInWords(record.error),
-                          percent(record.png.clippedShare)));
+                          samplesPerPixel(film), formatDuration(report.seconds), report.stoppedBy,
+                          errorInWords(record.error), percent(record.png.clippedShare)));
   if (report.totals.negative > 0) {
     context.say(fmt::format("{} samples were negative, which this estimator may produce", report.totals.negative));
   }

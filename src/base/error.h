@@ -42,5 +42,5 @@ std::string nearestName(const std::string& name, const std::vector<std::string>&
 } // namespace tyndall
 
 /// Programmer errors only: prints the expression and the place, and aborts.
-#define TYNDALL_CHECK(expression)                                                                  \
+#define TYNDALL_CHECK(expression)                                                                                      \
   ((expression) ? void() : ::tyndall::checkFailed(#expression, std::source_location::current()))

@@ -66,8 +66,7 @@ void writeFileAtomically(const fs::path& path, const std::function<void(const fs
 void checkWritable(const fs::path& path) {
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   if (!fs::is_directory(folder)) {
-    fail("{}: the folder {} does not exist; create it or name another output with -o", path.string(),
-         folder.string());
+    fail("{}: the folder {} does not exist; create it or name another output with -o", path.string(), folder.string());
   }
   if (fs::is_directory(path)) {
     fail("{}: is a folder; name a file", path.string());

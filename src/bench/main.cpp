@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/error.h"
+#include "kernels/bare_lookup.h"
 #include "passes/bench/bench_io.h"
 #include "render/pixel_order.h"
 #include "render/renderer.h"
 #include "volume/depth.h"
 #include "volume/load.h"
-
-#include "kernels/bare_lookup.h"
 
 #include <CLI/CLI.hpp>
 
@@ -119,18 +118,22 @@ void printRow(const char* name, const std::vector<Figures>& runs) {
   const render::TraceTotals& totals = runs.front().totals;
   const double samples = double(totals.samples);
   const double time = median(wall);
-  fmt::print("{:<28} {:>8.3f} {:>8.3f} {:>11.2f} {:>12.2f} {:>12.2f} {:>15.2f}\n", name, time, median(cpu), samples / time * 1e-6,
-             double(totals.lookups) / time * 1e-6, double(totals.segments) / time * 1e-6, double(totals.lookups) / samples);
+  fmt::print("{:<28} {:>8.3f} {:>8.3f} {:>11.2f} {:>12.2f} {:>12.2f} {:>15.2f}\n", name, time, median(cpu),
+             samples / time * 1e-6, double(totals.lookups) / time * 1e-6, double(totals.segments) / time * 1e-6,
+             double(totals.lookups) / samples);
 }
 
-Cost bareLookups(const gpu::Device& device, const gpu_scene::GpuScene& gpuScene, const Options& options, double meanStep) {
+Cost bareLookups(const gpu::Device& device, const gpu_scene::GpuScene& gpuScene, const Options& options,
+                 double meanStep) {
   const std::array spec{gpu::SpecEntry{0, gpuScene.features().formatMask}};
   const gpu::Kernel kernel(device, k_bare_lookup_spirv, spec, gpuScene.images());
   const std::vector<std::uint32_t> order = render::dispatchOrder({glm::uvec2(0), glm::uvec2(options.size)});
   const gpu::Buffer<std::uint32_t> pixels(device, std::span<const std::uint32_t>(order), gpu::Memory::Host);
   const gpu::Buffer<float> sums(device, order.size(), gpu::Memory::Host);
   constexpr std::uint32_t kLookups = 64;
-  const interop::BareLookupInputs inputs{gpuScene.ptr(), pixels.ptr(), sums.ptr(), static_cast<std::uint32_t>(order.size()), kLookups, static_cast<float>(meanStep)};
+  const interop::BareLookupInputs inputs{gpuScene.ptr(), pixels.ptr(),
+                                         sums.ptr(),     static_cast<std::uint32_t>(order.size()),
+                                         kLookups,       static_cast<float>(meanStep)};
   kernel.run(inputs, inputs.count);
   std::vector<double> wall;
   std::vector<double> cpu;
@@ -153,8 +156,9 @@ int run(const Options& options) {
   const gpu_scene::VolumeSet local = volumesOf(std::move(grid));
   const gpu_scene::GpuScene localScene(device, scene, local);
   const gpu_scene::GpuScene globalScene(device, scene, global);
-  fmt::print("{} on {}\n{} at {}x{}, load {:.3f} s, {} active voxels as {}, median optical depth {}\n\n", device.info().name, device.info().driver,
-             options.volume, options.size, options.size, loadSeconds, local.grids[0].activeVoxels, volume::storageName(local.grids[0].storage), options.opticalDepth);
+  fmt::print("{} on {}\n{} at {}x{}, load {:.3f} s, {} active voxels as {}, median optical depth {}\n\n",
+             device.info().name, device.info().driver, options.volume, options.size, options.size, loadSeconds,
+             local.grids[0].activeVoxels, volume::storageName(local.grids[0].storage), options.opticalDepth);
   std::array<std::vector<Figures>, 3> runs;
   constexpr std::uint32_t kSamples = 16;
   for (std::uint32_t i = 0; i <= options.repeats; ++i) { // the first round compiles and is dropped
@@ -165,13 +169,16 @@ int run(const Options& options) {
   for (std::vector<Figures>& each : runs) {
     each.erase(each.begin());
   }
-  fmt::print("{:<28} {:>8} {:>8} {:>11} {:>12} {:>12} {:>15}\n", "", "wall s", "CPU s", "Msamples/s", "Mlookups/s", "Mstages/s", "lookups/sample");
+  fmt::print("{:<28} {:>8} {:>8} {:>11} {:>12} {:>12} {:>15}\n", "", "wall s", "CPU s", "Msamples/s", "Mlookups/s",
+             "Mstages/s", "lookups/sample");
   printRow("weighted walk, majorant grid", runs[0]);
   printRow("delta tracking, majorant grid", runs[1]);
   printRow("delta tracking, one majorant", runs[2]);
   const Cost ceiling = bareLookups(device, localScene, options, 8.0);
-  fmt::print("\nbare lookups along the camera rays: {:.1f} M per second, {:.1f} M per CPU second\n", ceiling.wall * 1e-6, ceiling.cpu * 1e-6);
-  fmt::print("lookups per sample, majorant grid over one majorant: {:.3f}\n", double(runs[1][0].totals.lookups) / double(runs[2][0].totals.lookups));
+  fmt::print("\nbare lookups along the camera rays: {:.1f} M per second, {:.1f} M per CPU second\n",
+             ceiling.wall * 1e-6, ceiling.cpu * 1e-6);
+  fmt::print("lookups per sample, majorant grid over one majorant: {:.3f}\n",
+             double(runs[1][0].totals.lookups) / double(runs[2][0].totals.lookups));
   return 0;
 }
 

@@ -32,7 +32,9 @@ RawBuffer::RawBuffer(const Device& device, std::size_t bytes, Memory memory)
   Device::Impl& owner = device.impl();
   impl_->device = &owner;
   const std::size_t size = std::max<std::size_t>(bytes, 4);
-  impl_->buffer = vk::raii::Buffer(owner.device, {{}, size, Usage::eStorageBuffer | Usage::eShaderDeviceAddress | Usage::eTransferSrc | Usage::eTransferDst});
+  impl_->buffer = vk::raii::Buffer(
+      owner.device,
+      {{}, size, Usage::eStorageBuffer | Usage::eShaderDeviceAddress | Usage::eTransferSrc | Usage::eTransferDst});
   const vk::MemoryRequirements need = impl_->buffer.getMemoryRequirements();
   const vk::MemoryPropertyFlags wanted = propertiesOf(owner, need.memoryTypeBits, memory);
   impl_->memory = owner.allocate(need, wanted, true);
@@ -98,9 +100,8 @@ void RawBuffer::fillZero() {
     std::memset(mapped_, 0, bytes_);
     return;
   }
-  impl_->device->runCommands([&](const vk::raii::CommandBuffer& commands) {
-    commands.fillBuffer(*impl_->buffer, 0, VK_WHOLE_SIZE, 0);
-  });
+  impl_->device->runCommands(
+      [&](const vk::raii::CommandBuffer& commands) { commands.fillBuffer(*impl_->buffer, 0, VK_WHOLE_SIZE, 0); });
 }
 
 } // namespace tyndall::gpu

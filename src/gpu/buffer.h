@@ -42,7 +42,8 @@ private:
 };
 
 /// An array of T on the device; `T` is an interop type.
-template <class T> class Buffer {
+template <class T>
+class Buffer {
 public:
   Buffer() = default;
   Buffer(const Device& device, std::size_t count, Memory memory)
@@ -54,9 +55,7 @@ public:
 
   std::size_t size() const { return count_; }
   std::size_t bytes() const { return raw_.bytes(); }
-  interop::Ptr<T> ptr(std::size_t first = 0) const {
-    return {count_ == 0 ? 0 : raw_.address() + first * sizeof(T)};
-  }
+  interop::Ptr<T> ptr(std::size_t first = 0) const { return {count_ == 0 ? 0 : raw_.address() + first * sizeof(T)}; }
   void write(std::span<const T> values) { raw_.write(std::as_bytes(values)); }
   void fillZero() { raw_.fillZero(); }
   /// Host memory only.

@@ -19,7 +19,8 @@ int preference(const DeviceInfo& info) {
 
 bool matches(const DeviceInfo& info, const std::string& select) {
   const bool isIndex = select.find_first_not_of("0123456789") == std::string::npos;
-  return select.empty() || (isIndex ? select == std::to_string(info.index) : info.name.find(select) != std::string::npos);
+  return select.empty() ||
+         (isIndex ? select == std::to_string(info.index) : info.name.find(select) != std::string::npos);
 }
 
 DeviceInfo choose(const std::vector<DeviceInfo>& devices, const std::string& select) {
@@ -122,7 +123,8 @@ Device::~Device() {
   try {
     const std::vector<std::uint8_t> data = impl_->cache.getData();
     writeFileAtomically(impl_->cacheFile, [&](const std::filesystem::path& path) {
-      std::ofstream(path, std::ios::binary).write(reinterpret_cast<const char*>(data.data()), static_cast<std::streamsize>(data.size()));
+      std::ofstream(path, std::ios::binary)
+          .write(reinterpret_cast<const char*>(data.data()), static_cast<std::streamsize>(data.size()));
     });
   } catch (const std::exception& error) {
     spdlog::debug("pipeline cache not written: {}", error.what());
@@ -143,7 +145,8 @@ std::uint32_t Device::Impl::memoryType(std::uint32_t allowed, vk::MemoryProperty
   fail("the Vulkan device has no memory of the kind {}", vk::to_string(wanted));
 }
 
-vk::raii::DeviceMemory Device::Impl::allocate(const vk::MemoryRequirements& need, vk::MemoryPropertyFlags wanted, bool address) {
+vk::raii::DeviceMemory Device::Impl::allocate(const vk::MemoryRequirements& need, vk::MemoryPropertyFlags wanted,
+                                              bool address) {
   const vk::MemoryAllocateFlagsInfo flags(vk::MemoryAllocateFlagBits::eDeviceAddress);
   vk::MemoryAllocateInfo allocation(need.size, memoryType(need.memoryTypeBits, wanted));
   if (address) {
@@ -170,7 +173,8 @@ void Device::Impl::runCommands(const std::function<void(const vk::raii::CommandB
     // Results are read by the host after the fence, or by the next submission.
     const vk::MemoryBarrier2 barrier(vk::PipelineStageFlagBits2::eAllCommands, vk::AccessFlagBits2::eMemoryWrite,
                                      vk::PipelineStageFlagBits2::eAllCommands | vk::PipelineStageFlagBits2::eHost,
-                                     vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite | vk::AccessFlagBits2::eHostRead);
+                                     vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite |
+                                         vk::AccessFlagBits2::eHostRead);
     commands.pipelineBarrier2({{}, barrier});
     commands.end();
     const vk::raii::Fence fence(device, vk::FenceCreateInfo{});

@@ -12,16 +12,16 @@ namespace tyndall::gpu {
 
 /// A physical device and what it offers.
 struct DeviceInfo {
-  std::uint32_t index = 0;           ///< place in the loader's list, what --device takes
+  std::uint32_t index = 0; ///< place in the loader's list, what --device takes
   std::string name;
-  std::string driver;                ///< driver name and version text
-  std::string type;                  ///< "discrete", "integrated", "virtual", "cpu" or "other"
+  std::string driver; ///< driver name and version text
+  std::string type;   ///< "discrete", "integrated", "virtual", "cpu" or "other"
   std::string apiVersion;
   std::uint32_t subgroupSize = 0;
-  std::uint32_t maxImage3D = 0;      ///< texels per edge
-  std::uint64_t memoryBytes = 0;     ///< largest device-local heap
-  std::uint64_t maxAllocation = 0;   ///< bytes of one allocation
-  std::vector<std::string> missing;  ///< what Tyndall needs and the device lacks; empty = usable
+  std::uint32_t maxImage3D = 0;     ///< texels per edge
+  std::uint64_t memoryBytes = 0;    ///< largest device-local heap
+  std::uint64_t maxAllocation = 0;  ///< bytes of one allocation
+  std::vector<std::string> missing; ///< what Tyndall needs and the device lacks; empty = usable
 
   bool usable() const { return missing.empty(); }
 };
@@ -30,9 +30,9 @@ struct DeviceInfo {
 std::vector<DeviceInfo> listDevices();
 
 struct DeviceOptions {
-  std::string select;                   ///< index or part of the name; empty = the fastest kind
-  bool validation = false;              ///< core and synchronisation validation, messages collected
-  std::filesystem::path pipelineCache;  ///< folder; empty = no cache on disk
+  std::string select;                  ///< index or part of the name; empty = the fastest kind
+  bool validation = false;             ///< core and synchronisation validation, messages collected
+  std::filesystem::path pipelineCache; ///< folder; empty = no cache on disk
 };
 
 /// A logical device with one compute queue. Not copyable; everything made from it must die before it.

@@ -12,10 +12,8 @@ namespace {
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 
-VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
-                                         VkDebugUtilsMessageTypeFlagsEXT,
-                                         const VkDebugUtilsMessengerCallbackDataEXT* data,
-                                         void* user) {
+VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+                                         const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
   static_cast<std::vector<std::string>*>(user)->emplace_back(data->pMessage);
   spdlog::error("Vulkan validation: {}", data->pMessage);
   return VK_FALSE;
@@ -23,23 +21,32 @@ VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
 
 bool hasLayer(const vk::raii::Context& context, const std::string& name) {
   const auto layers = context.enumerateInstanceLayerProperties();
-  return std::any_of(layers.begin(), layers.end(), [&](const vk::LayerProperties& layer) { return name == layer.layerName; });
+  return std::any_of(layers.begin(), layers.end(),
+                     [&](const vk::LayerProperties& layer) { return name == layer.layerName; });
 }
 
 vk::DebugUtilsMessengerCreateInfoEXT messengerInfo(std::vector<std::string>& messages) {
   using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
   using Type = vk::DebugUtilsMessageTypeFlagBitsEXT;
-  return {{}, Severity::eWarning | Severity::eError, Type::eGeneral | Type::eValidation | Type::ePerformance,
-          onMessage, &messages};
+  return {{},
+          Severity::eWarning | Severity::eError,
+          Type::eGeneral | Type::eValidation | Type::ePerformance,
+          onMessage,
+          &messages};
 }
 
 const char* typeName(vk::PhysicalDeviceType type) {
   switch (type) {
-  case vk::PhysicalDeviceType::eDiscreteGpu: return "discrete";
-  case vk::PhysicalDeviceType::eIntegratedGpu: return "integrated";
-  case vk::PhysicalDeviceType::eVirtualGpu: return "virtual";
-  case vk::PhysicalDeviceType::eCpu: return "cpu";
-  default: return "other";
+  case vk::PhysicalDeviceType::eDiscreteGpu:
+    return "discrete";
+  case vk::PhysicalDeviceType::eIntegratedGpu:
+    return "integrated";
+  case vk::PhysicalDeviceType::eVirtualGpu:
+    return "virtual";
+  case vk::PhysicalDeviceType::eCpu:
+    return "cpu";
+  default:
+    return "other";
   }
 }
 
@@ -92,7 +99,8 @@ std::unique_ptr<Instance> makeInstance(bool validation) {
   try {
     result->instance = vk::raii::Instance(result->context, info);
   } catch (const vk::SystemError& error) {
-    fail("no Vulkan driver could be loaded ({}); install one, for the CPU the package mesa-vulkan-drivers", error.what());
+    fail("no Vulkan driver could be loaded ({}); install one, for the CPU the package mesa-vulkan-drivers",
+         error.what());
   }
   if (validation) {
     result->messenger = vk::raii::DebugUtilsMessengerEXT(result->instance, messengerInfo(result->messages));

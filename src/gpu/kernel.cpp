@@ -32,7 +32,8 @@ std::array<Image3D, 3> makeStandIns(const Device& device, const AtlasImages& ima
   return standIns;
 }
 
-void bindImages(const vk::raii::Device& device, vk::DescriptorSet set, const AtlasImages& images, const std::array<Image3D, 3>& standIns) {
+void bindImages(const vk::raii::Device& device, vk::DescriptorSet set, const AtlasImages& images,
+                const std::array<Image3D, 3>& standIns) {
   const std::array<const Image3D*, 3> slots{images.uint8, images.half, images.single};
   for (std::uint32_t binding = 0; binding < slots.size(); ++binding) {
     const Image3D& image = standIns[binding].empty() ? *slots[binding] : standIns[binding];
@@ -52,7 +53,8 @@ struct Kernel::Impl {
   vk::raii::Pipeline pipeline{nullptr};
 };
 
-Kernel::Kernel(const Device& device, std::span<const std::uint32_t> spirv, std::span<const SpecEntry> spec, const AtlasImages& images)
+Kernel::Kernel(const Device& device, std::span<const std::uint32_t> spirv, std::span<const SpecEntry> spec,
+               const AtlasImages& images)
     : impl_(std::make_unique<Impl>()), spirvBytes_(spirv.size_bytes()) {
   const SpirvInfo info = readSpirv(spirv);
   workgroupSize_ = info.workgroupSize;
@@ -73,10 +75,13 @@ Kernel::Kernel(const Device& device, std::span<const std::uint32_t> spirv, std::
     entries.emplace_back(entry.id, static_cast<std::uint32_t>(values.size() * 4), 4);
     values.push_back(entry.bits);
   }
-  const vk::SpecializationInfo specialization(static_cast<std::uint32_t>(entries.size()), entries.data(), values.size() * 4, values.data());
+  const vk::SpecializationInfo specialization(static_cast<std::uint32_t>(entries.size()), entries.data(),
+                                              values.size() * 4, values.data());
   const vk::raii::ShaderModule shader(owner.device, {{}, spirv.size_bytes(), spirv.data()});
-  const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *shader, "main", &specialization);
-  impl_->pipeline = vk::raii::Pipeline(owner.device, owner.cache, vk::ComputePipelineCreateInfo({}, stage, *impl_->layout));
+  const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *shader, "main",
+                                                &specialization);
+  impl_->pipeline =
+      vk::raii::Pipeline(owner.device, owner.cache, vk::ComputePipelineCreateInfo({}, stage, *impl_->layout));
 }
 
 Kernel::Kernel(Kernel&&) noexcept = default;
@@ -90,8 +95,9 @@ void Kernel::runRaw(std::span<const std::byte> push, std::uint32_t invocations) 
   impl_->device->runCommands([&](const vk::raii::CommandBuffer& commands) {
     commands.bindPipeline(vk::PipelineBindPoint::eCompute, *impl_->pipeline);
     commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *impl_->layout, 0, *impl_->set, {});
-    commands.pushConstants<std::byte>(*impl_->layout, vk::ShaderStageFlagBits::eCompute, 0,
-                                      vk::ArrayProxy<const std::byte>(static_cast<std::uint32_t>(push.size()), push.data()));
+    commands.pushConstants<std::byte>(
+        *impl_->layout, vk::ShaderStageFlagBits::eCompute, 0,
+        vk::ArrayProxy<const std::byte>(static_cast<std::uint32_t>(push.size()), push.data()));
     commands.dispatch(groups, 1, 1);
   });
 }

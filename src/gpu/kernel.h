@@ -19,7 +19,8 @@ struct SpecEntry {
 };
 
 /// The 32 bits of a uint, int, float or bool specialization value (bool: VkBool32).
-template <class T> std::uint32_t specBits(T value) {
+template <class T>
+std::uint32_t specBits(T value) {
   if constexpr (std::is_same_v<T, bool>) {
     return value ? 1u : 0u;
   } else {
@@ -50,7 +51,8 @@ public:
   std::size_t spirvBytes() const { return spirvBytes_; }
 
   /// Runs at least `invocations` invocations (whole workgroups) with the push constants and waits for the end.
-  template <class Push> void run(const Push& push, std::uint32_t invocations) const {
+  template <class Push>
+  void run(const Push& push, std::uint32_t invocations) const {
     static_assert(std::is_trivially_copyable_v<Push> && sizeof(Push) <= 128);
     runRaw(std::as_bytes(std::span(&push, 1)), invocations);
   }

@@ -11,8 +11,8 @@ namespace tyndall::gpu {
 
 /// What the host reads from a SPIR-V module instead of repeating it.
 struct SpirvInfo {
-  std::uint32_t workgroupSize = 1;  ///< x of LocalSize or LocalSizeId
-  bool usesImages = false;          ///< reads the atlas images
+  std::uint32_t workgroupSize = 1; ///< x of LocalSize or LocalSizeId
+  bool usesImages = false;         ///< reads the atlas images
   /// Struct name -> member name -> byte offset. A struct that appears with several layouts keeps the first one.
   std::map<std::string, std::map<std::string, std::uint32_t>> offsets;
 };

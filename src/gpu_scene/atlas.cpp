@@ -26,7 +26,9 @@ glm::uvec3 atlasShape(std::size_t count, std::uint32_t maxTexels) {
   const std::uint32_t side = std::clamp(edge, 1u, limit);
   const std::size_t layers = (count + std::size_t(side) * side - 1) / (std::size_t(side) * side);
   if (layers > limit) {
-    fail("{} bricks of 8^3 voxels do not fit into the device's largest 3D image ({} texels an edge); use a \"clip\" box", count, maxTexels);
+    fail(
+        "{} bricks of 8^3 voxels do not fit into the device's largest 3D image ({} texels an edge); use a \"clip\" box",
+        count, maxTexels);
   }
   return {side, side, static_cast<std::uint32_t>(layers)};
 }
@@ -36,7 +38,8 @@ glm::uvec3 placeOf(std::size_t brick, const glm::uvec3& shape) {
   return {index % shape.x, index / shape.x % shape.y, index / (shape.x * shape.y)};
 }
 
-void copyBrick(const BrickGrid& grid, std::uint32_t slot, const glm::uvec3& place, const glm::uvec3& shape, std::vector<std::byte>& texels) {
+void copyBrick(const BrickGrid& grid, std::uint32_t slot, const glm::uvec3& place, const glm::uvec3& shape,
+               std::vector<std::byte>& texels) {
   const std::size_t row = kBrickEdge * volume::bytesPerVoxel(grid.storage);
   const std::byte* source = grid.voxels.data() + std::size_t(slot) * kBrickEdge * kBrickEdge * row;
   for (std::size_t z = 0; z < kBrickEdge; ++z) {
@@ -51,9 +54,12 @@ void copyBrick(const BrickGrid& grid, std::uint32_t slot, const glm::uvec3& plac
 
 std::uint32_t formatOf(volume::Storage storage) {
   switch (storage) {
-  case volume::Storage::Unorm8: return interop::kFormatUint8;
-  case volume::Storage::Half: return interop::kFormatHalf;
-  case volume::Storage::Float: return interop::kFormatFloat;
+  case volume::Storage::Unorm8:
+    return interop::kFormatUint8;
+  case volume::Storage::Half:
+    return interop::kFormatHalf;
+  case volume::Storage::Float:
+    return interop::kFormatFloat;
   }
   TYNDALL_CHECK(false);
   return 0;

@@ -8,16 +8,22 @@
 namespace tyndall::gpu_scene {
 namespace {
 
-template <class T> std::span<const T> view(const std::vector<T>& values) { return {values.data(), values.size()}; }
+template <class T>
+std::span<const T> view(const std::vector<T>& values) {
+  return {values.data(), values.size()};
+}
 
-Features featuresOf(const scene::Scene& scene, const PackedMedia& media, const PackedLights& lights, std::uint32_t formatMask) {
+Features featuresOf(const scene::Scene& scene, const PackedMedia& media, const PackedLights& lights,
+                    std::uint32_t formatMask) {
   Features features;
   features.phaseMask = media.phaseMask;
   features.formatMask = formatMask;
   features.homogeneous = media.homogeneousCount > 0;
   const auto gridMedia = media.media.size() - media.homogeneousCount;
   features.grids = gridMedia > 0;
-  const auto dense = std::count_if(media.media.begin(), media.media.end(), [](const interop::Medium& medium) { return medium.densityGrid != interop::kNoGrid; });
+  const auto dense = std::count_if(media.media.begin(), media.media.end(), [](const interop::Medium& medium) {
+    return medium.densityGrid != interop::kNoGrid;
+  });
   features.overlapOfGrids = dense > 1;
   features.gridEmission = !media.emissive.empty();
   features.pointLights = !lights.points.empty();
@@ -60,7 +66,8 @@ GpuScene::GpuScene(const gpu::Device& device, const scene::Scene& scene, const V
   header.emissive = emissive_.ptr();
   header.points = points_.ptr();
   header.distant = distant_.ptr();
-  if (std::any_of(packed_.media.begin(), packed_.media.end(), [](const interop::Medium& medium) { return medium.emissionKind == interop::kEmissionBlackbody; })) {
+  if (std::any_of(packed_.media.begin(), packed_.media.end(),
+                  [](const interop::Medium& medium) { return medium.emissionKind == interop::kEmissionBlackbody; })) {
     vectors_.emplace_back(device, view(light::blackbodyTable()));
     header.blackbody = vectors_.back().ptr();
   }

@@ -25,7 +25,7 @@ struct Features {
   bool distantAreas = false;
   bool orthographic = false;
   bool background = false;
-  bool overlapOfGrids = false;       ///< more than one medium with a density grid: delta tracking, see tracker/walk.glsl
+  bool overlapOfGrids = false; ///< more than one medium with a density grid: delta tracking, see tracker/walk.glsl
 };
 
 /// A scene in device memory. Owns everything; kernels borrow addresses.

@@ -19,16 +19,17 @@ using std::numbers::pi;
 /// Sky maps are smooth: half a degree a texel.
 constexpr glm::uvec2 kSkySize{512, 256};
 
-
 /// A light's share of the selection, however weak it seems beside the others.
 constexpr double kLeastShare = 1e-6;
 
-/// Degrees. Float directions resolve 1e-7 radians: a smaller disc would lose samples at its rim, and lights like a point.
+/// Degrees. Float directions resolve 1e-7 radians: a smaller disc would lose samples at its rim, and lights like a
+/// point.
 constexpr double kLeastDiameter = 0.01;
 
 class LightPacker {
 public:
-  LightPacker(const Bounds3& bounds, const glm::dvec3& centre, PackedLights& out) : bounds_(bounds), centre_(centre), out_(out) {}
+  LightPacker(const Bounds3& bounds, const glm::dvec3& centre, PackedLights& out)
+      : bounds_(bounds), centre_(centre), out_(out) {}
 
   void add(const scene::NamedLight& named) {
     visible_ = named.visible;
@@ -126,7 +127,8 @@ private:
 
   void addTable(light::EnvironmentTable table, double rotationDegrees) {
     if (table.badTexels > 0) {
-      out_.notes.push_back(fmt::format("light \"{}\": {} texels are negative or not finite and were set to 0", *name_, table.badTexels));
+      out_.notes.push_back(
+          fmt::format("light \"{}\": {} texels are negative or not finite and were set to 0", *name_, table.badTexels));
     }
     if (table.power <= 0.0) {
       return;

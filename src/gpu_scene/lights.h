@@ -15,12 +15,12 @@ namespace tyndall::gpu_scene {
 /// irradiance at the scene; every light that is not black has one above 0.
 struct PackedLights {
   std::vector<interop::PointLight> points;
-  std::vector<interop::DistantLight> distant;   ///< map addresses still empty
-  std::vector<light::EnvironmentTable> tables;  ///< for distant lights of kind kDistantMap, in their order
+  std::vector<interop::DistantLight> distant;  ///< map addresses still empty
+  std::vector<light::EnvironmentTable> tables; ///< for distant lights of kind kDistantMap, in their order
   float pointShare = 0.0f;
-  bool deltas = false;                          ///< a sun without angular size is there
-  bool areas = false;                           ///< something at infinity that a direction can hit
-  bool background = false;                      ///< a distant light is visible to the camera
+  bool deltas = false;     ///< a sun without angular size is there
+  bool areas = false;      ///< something at infinity that a direction can hit
+  bool background = false; ///< a distant light is visible to the camera
   std::vector<std::string> notes;
 };
 

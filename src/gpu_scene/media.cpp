@@ -51,13 +51,15 @@ Medium packHomogeneous(const scene::Medium& medium, const glm::dvec3& centre) {
   packed.sigmaT = static_cast<float>(medium.sigmaT);
   // About the shape's own centre: its corners may be given far from the origin.
   const bool sphere = medium.shape == scene::MediumShape::Sphere;
-  const glm::dvec3 middle = sphere ? medium.centre : medium.shape == scene::MediumShape::Box ? medium.box.centre() : glm::dvec3(0.0);
+  const glm::dvec3 middle = sphere                                    ? medium.centre
+                            : medium.shape == scene::MediumShape::Box ? medium.box.centre()
+                                                                      : glm::dvec3(0.0);
   const glm::dmat4 mediumFromWorld = glm::translate(glm::dmat4(1.0), -middle) * glm::inverse(medium.worldFromMedium) *
                                      glm::translate(glm::dmat4(1.0), centre);
   packed.mediumFromWorld = glm::mat4x3(glm::dmat4x3(mediumFromWorld));
-  packed.shape = medium.shape == scene::MediumShape::Box ? interop::kShapeBox
+  packed.shape = medium.shape == scene::MediumShape::Box      ? interop::kShapeBox
                  : medium.shape == scene::MediumShape::Sphere ? interop::kShapeSphere
-                                                               : interop::kShapeUnbounded;
+                                                              : interop::kShapeUnbounded;
   packed.shapeMin = sphere ? glm::dvec3(0.0) : medium.box.min - middle;
   packed.shapeMax = sphere ? glm::dvec3(medium.radius) : medium.box.max - middle;
   if (medium.emission) {
@@ -100,7 +102,8 @@ std::vector<float> emissionMaxima(const BrickGrid& grid, const GridEmission& emi
 
 std::vector<float> densityMaxima(const BrickGrid& grid) {
   std::vector<float> maxima(grid.ranges.size());
-  std::transform(grid.ranges.begin(), grid.ranges.end(), maxima.begin(), [](const volume::Range& range) { return range.max; });
+  std::transform(grid.ranges.begin(), grid.ranges.end(), maxima.begin(),
+                 [](const volume::Range& range) { return range.max; });
   return maxima;
 }
 
@@ -111,7 +114,8 @@ std::vector<float> coarsen(const BrickGrid& grid, const std::vector<float>& maxi
     for (int y = 0; y < grid.brickCount.y; ++y) {
       for (int x = 0; x < grid.brickCount.x; ++x, ++brick) {
         const glm::ivec3 cell = glm::ivec3(x, y, z) / volume::kCoarseEdge;
-        float& target = coarse[cell.x + std::size_t(grid.coarseCount.x) * (cell.y + std::size_t(grid.coarseCount.y) * cell.z)];
+        float& target =
+            coarse[cell.x + std::size_t(grid.coarseCount.x) * (cell.y + std::size_t(grid.coarseCount.y) * cell.z)];
         target = std::max(target, maxima[brick]);
       }
     }
@@ -122,7 +126,8 @@ std::vector<float> coarsen(const BrickGrid& grid, const std::vector<float>& maxi
 /// A temperature grid whose maximum cannot be kelvin is mapped so that it peaks at kMappedMaximum.
 double temperatureScaleFor(const scene::Emission& emission, const BrickGrid& grid, std::vector<std::string>& notes) {
   const double maximum = grid.maximum();
-  const bool asGiven = !emission.temperatureAuto || emission.temperatureScale != 1.0 || emission.temperatureOffset != 0.0;
+  const bool asGiven =
+      !emission.temperatureAuto || emission.temperatureScale != 1.0 || emission.temperatureOffset != 0.0;
   if (asGiven || maximum >= kColdestGlow || maximum <= 0.0) {
     return emission.temperatureScale;
   }
@@ -135,7 +140,8 @@ double temperatureScaleFor(const scene::Emission& emission, const BrickGrid& gri
 
 class MediaPacker {
 public:
-  MediaPacker(const VolumeSet& volumes, const glm::dvec3& centre, PackedMedia& out) : volumes_(volumes), centre_(centre), out_(out) {}
+  MediaPacker(const VolumeSet& volumes, const glm::dvec3& centre, PackedMedia& out)
+      : volumes_(volumes), centre_(centre), out_(out) {}
 
   void addGrid(const scene::Medium& medium, const VolumeSet::Use& use) {
     Medium packed = commonFields(medium);
@@ -170,7 +176,8 @@ private:
     const scene::Emission& settings = *medium.emission;
     const GridEmission emission{settings, temperatureScaleFor(settings, grid, out_.notes)};
     packed.emission = settings.scale * settings.colour;
-    packed.emissionKind = settings.kind == scene::Emission::Kind::Linear ? interop::kEmissionLinear : interop::kEmissionBlackbody;
+    packed.emissionKind =
+        settings.kind == scene::Emission::Kind::Linear ? interop::kEmissionLinear : interop::kEmissionBlackbody;
     packed.emissionTied = settings.tiedToAbsorption ? 1 : 0;
     packed.temperatureScale = static_cast<float>(emission.temperatureScale);
     packed.temperatureOffset = static_cast<float>(settings.temperatureOffset);

@@ -25,9 +25,9 @@ interop::Phase packPhase(const scene::Phase& phase);
 /// `placements` (a brick grid seen through one medium's transform).
 struct PackedMedia {
   struct Placement {
-    std::size_t grid = 0;         ///< index into VolumeSet::grids
-    interop::Grid header;         ///< addresses still empty
-    std::vector<float> maxima;    ///< per brick: density maxima, or the luminance of the strongest emission
+    std::size_t grid = 0;      ///< index into VolumeSet::grids
+    interop::Grid header;      ///< addresses still empty
+    std::vector<float> maxima; ///< per brick: density maxima, or the luminance of the strongest emission
     std::vector<float> coarseMaxima;
   };
   std::vector<interop::Medium> media;
@@ -35,7 +35,7 @@ struct PackedMedia {
   std::vector<std::uint32_t> emissive;
   std::uint32_t homogeneousCount = 0;
   std::uint32_t phaseMask = 0;
-  std::vector<std::string> notes;   ///< e.g. how a temperature grid was mapped to kelvin
+  std::vector<std::string> notes; ///< e.g. how a temperature grid was mapped to kelvin
 };
 /// @param centre the world point that device coordinates are relative to.
 PackedMedia packMedia(const scene::Scene& scene, const VolumeSet& volumes, const glm::dvec3& centre);

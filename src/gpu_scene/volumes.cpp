@@ -75,8 +75,9 @@ public:
       if (requests_[i].automatic && narrower && representable) {
         requests_[i].options.storage = storage;
         set_.grids[i] = volume::loadGrid(requests_[i].file, requests_[i].options);
-        set_.grids[i].report.notes.push_back(fmt::format("stored as {} to fit the memory budget (worst voxel error {:.2g} of the maximum)",
-                                                         volume::storageName(storage), set_.grids[i].report.quantisationError));
+        set_.grids[i].report.notes.push_back(
+            fmt::format("stored as {} to fit the memory budget (worst voxel error {:.2g} of the maximum)",
+                        volume::storageName(storage), set_.grids[i].report.quantisationError));
       }
     }
   }
@@ -109,7 +110,8 @@ private:
 std::string sizes(const VolumeSet& set) {
   std::string text;
   for (const volume::BrickGrid& grid : set.grids) {
-    text += fmt::format("\n  {}: {:.1f} MB as {}", grid.name, grid.deviceBytes() * 1e-6, volume::storageName(grid.storage));
+    text +=
+        fmt::format("\n  {}: {:.1f} MB as {}", grid.name, grid.deviceBytes() * 1e-6, volume::storageName(grid.storage));
   }
   return text;
 }

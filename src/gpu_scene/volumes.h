@@ -14,12 +14,12 @@ namespace tyndall::gpu_scene {
 /// The grids that a scene's media name, each loaded once.
 struct VolumeSet {
   struct Use {
-    std::optional<std::size_t> density;  ///< index into grids
+    std::optional<std::size_t> density; ///< index into grids
     std::optional<std::size_t> emission;
   };
   std::vector<volume::BrickGrid> grids;
-  std::vector<Use> uses;                 ///< one per medium of the scene
-  std::vector<std::string> notes;        ///< sentences for the user: "file: grid: ..."
+  std::vector<Use> uses;          ///< one per medium of the scene
+  std::vector<std::string> notes; ///< sentences for the user: "file: grid: ..."
 
   double deviceBytes() const;
 };

@@ -48,7 +48,8 @@ private:
 
 class Mask {
 public:
-  Mask(const scene::Camera& camera, const glm::uvec2& size) : projection_(camera, size), size_(size), flags_(std::size_t(size.x) * size.y, false) {}
+  Mask(const scene::Camera& camera, const glm::uvec2& size)
+      : projection_(camera, size), size_(size), flags_(std::size_t(size.x) * size.y, false) {}
 
   void markAll() { std::fill(flags_.begin(), flags_.end(), true); }
 
@@ -84,7 +85,8 @@ private:
     const glm::dvec2 last = glm::clamp(glm::floor(high) + 1.0, glm::dvec2(0.0), glm::dvec2(size_));
     for (auto y = static_cast<std::size_t>(first.y); y < static_cast<std::size_t>(last.y); ++y) {
       const auto row = flags_.begin() + static_cast<std::ptrdiff_t>(y * size_.x);
-      std::fill(row + static_cast<std::ptrdiff_t>(first.x), row + std::max(static_cast<std::ptrdiff_t>(last.x), static_cast<std::ptrdiff_t>(first.x)), true);
+      std::fill(row + static_cast<std::ptrdiff_t>(first.x),
+                row + std::max(static_cast<std::ptrdiff_t>(last.x), static_cast<std::ptrdiff_t>(first.x)), true);
     }
   }
 
@@ -93,7 +95,8 @@ private:
   std::vector<bool> flags_;
 };
 
-void markCells(Mask& mask, const glm::dmat4& worldFromIndex, const BrickGrid& grid, const glm::ivec3& count, int edge, const auto& occupied) {
+void markCells(Mask& mask, const glm::dmat4& worldFromIndex, const BrickGrid& grid, const glm::ivec3& count, int edge,
+               const auto& occupied) {
   std::size_t index = 0;
   const Bounds3 support = grid.indexBounds();
   for (int z = 0; z < count.z; ++z) {
@@ -114,17 +117,25 @@ void markGrid(Mask& mask, const glm::dmat4& worldFromMedium, const BrickGrid& gr
   if (outsideValue != 0.0) { // emission glows where the grid itself is 0
     mask.markBox(worldFromIndex, grid.indexBounds());
   } else if (grid.bricks.size() <= kMaxBricks) {
-    markCells(mask, worldFromIndex, grid, grid.brickCount, kBrickEdge, [&](std::size_t i) { return grid.ranges[i].max > 0.0f; });
+    markCells(mask, worldFromIndex, grid, grid.brickCount, kBrickEdge,
+              [&](std::size_t i) { return grid.ranges[i].max > 0.0f; });
   } else {
-    markCells(mask, worldFromIndex, grid, grid.coarseCount, kBrickEdge * kCoarseEdge, [&](std::size_t i) { return grid.coarseMax[i] > 0.0f; });
+    markCells(mask, worldFromIndex, grid, grid.coarseCount, kBrickEdge * kCoarseEdge,
+              [&](std::size_t i) { return grid.coarseMax[i] > 0.0f; });
   }
 }
 
 void markHomogeneous(Mask& mask, const scene::Medium& medium) {
   switch (medium.shape) {
-  case scene::MediumShape::Unbounded: mask.markAll(); return;
-  case scene::MediumShape::Box: mask.markBox(medium.worldFromMedium, medium.box); return;
-  case scene::MediumShape::Sphere: mask.markBox(medium.worldFromMedium, {medium.centre - medium.radius, medium.centre + medium.radius}); return;
+  case scene::MediumShape::Unbounded:
+    mask.markAll();
+    return;
+  case scene::MediumShape::Box:
+    mask.markBox(medium.worldFromMedium, medium.box);
+    return;
+  case scene::MediumShape::Sphere:
+    mask.markBox(medium.worldFromMedium, {medium.centre - medium.radius, medium.centre + medium.radius});
+    return;
   }
 }
 
@@ -141,7 +152,8 @@ std::vector<bool> mediaCoverage(const scene::Scene& scene, const gpu_scene::Volu
       markGrid(mask, medium.worldFromMedium, volumes.grids[*volumes.uses[i].density], 0.0);
     }
     if (medium.emission && volumes.uses[i].emission && !volumes.grids[*volumes.uses[i].emission].empty()) {
-      markGrid(mask, medium.worldFromMedium, volumes.grids[*volumes.uses[i].emission], medium.emission->temperatureOffset);
+      markGrid(mask, medium.worldFromMedium, volumes.grids[*volumes.uses[i].emission],
+               medium.emission->temperatureOffset);
     }
   }
   return mask.take();

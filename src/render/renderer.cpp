@@ -36,8 +36,10 @@ public:
   Session(const gpu::Device& device, const scene::Scene& scene, const gpu_scene::VolumeSet& volumes,
           const gpu_scene::GpuScene& gpuScene, const RenderOptions& options, RenderReport& report)
       : scene_(scene), options_(options), report_(report), tracer_(device, gpuScene, options.tracer),
-        device_(device.info().name), film_(startFilm(device)), coverage_(mediaCoverage(scene, volumes)), order_(dispatchOrder(film_.window())) {
-    report_.mediaPixels = static_cast<std::size_t>(std::count_if(order_.begin(), order_.end(), [&](std::uint32_t pixel) { return covered(pixel); }));
+        device_(device.info().name), film_(startFilm(device)), coverage_(mediaCoverage(scene, volumes)),
+        order_(dispatchOrder(film_.window())) {
+    report_.mediaPixels = static_cast<std::size_t>(
+        std::count_if(order_.begin(), order_.end(), [&](std::uint32_t pixel) { return covered(pixel); }));
     report_.backgroundPixels = order_.size() - report_.mediaPixels;
     report_.spec = tracer_.spec();
     report_.kernelBytes = tracer_.kernelBytes();
@@ -113,16 +115,21 @@ private:
     const std::string path = options_.checkpoint.string();
     for (const char* key : {film::kSceneHashKey, film::kSeedKey}) {
       if (saved.metadata[key] != film.metadata[key]) {
-        fail("{}: the checkpoint belongs to another render ({} differs); delete it, or render without --resume", path, key);
+        fail("{}: the checkpoint belongs to another render ({} differs); delete it, or render without --resume", path,
+             key);
       }
     }
-    if (saved.imageSize() != film.imageSize() || !(saved.window() == film.window()) || saved.independentHalves != film.independentHalves) {
-      fail("{}: the checkpoint has another size, crop or kind of stopping; delete it, or render without --resume", path);
+    if (saved.imageSize() != film.imageSize() || !(saved.window() == film.window()) ||
+        saved.independentHalves != film.independentHalves) {
+      fail("{}: the checkpoint has another size, crop or kind of stopping; delete it, or render without --resume",
+           path);
     }
     return saved;
   }
 
-  bool covered(std::uint32_t pixel) const { return coverage_[(pixel & 0xffffu) + std::size_t(scene_.film.size.x) * (pixel >> 16)]; }
+  bool covered(std::uint32_t pixel) const {
+    return coverage_[(pixel & 0xffffu) + std::size_t(scene_.film.size.x) * (pixel >> 16)];
+  }
 
   std::size_t filmIndex(std::uint32_t pixel) const {
     const glm::uvec2 offset = glm::uvec2(pixel & 0xffffu, pixel >> 16) - film_.window().min;
@@ -214,9 +221,10 @@ private:
   /// Rare events add up over all runs that went into the film.
   void noteCounts() {
     const TraceTotals& totals = tracer_.totals();
-    const std::map<std::string, std::uint64_t> now{{"count.nonFinite", totals.nonFinite}, {"count.majorantExceeded", totals.majorantExceeded},
-                                                   {"count.negative", totals.negative}, {"count.lookups", totals.lookups},
-                                                   {"count.segments", totals.segments}, {"count.samples", totals.samples}};
+    const std::map<std::string, std::uint64_t> now{
+        {"count.nonFinite", totals.nonFinite}, {"count.majorantExceeded", totals.majorantExceeded},
+        {"count.negative", totals.negative},   {"count.lookups", totals.lookups},
+        {"count.segments", totals.segments},   {"count.samples", totals.samples}};
     for (const auto& [key, count] : now) {
       film_.metadata[key] = std::to_string(countsBefore_[key] + count);
     }
@@ -252,7 +260,7 @@ private:
   double lastError_ = 0.0;
   bool pictureTakesBatch_ = true;
   std::optional<Film> decisions_;
-  std::map<std::string, std::uint64_t> countsBefore_;  ///< of earlier runs, from the checkpoint
+  std::map<std::string, std::uint64_t> countsBefore_; ///< of earlier runs, from the checkpoint
 };
 
 } // namespace

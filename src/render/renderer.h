@@ -17,40 +17,40 @@ namespace tyndall::render {
 
 /// What a progress line shows.
 struct Progress {
-  double fraction = 0.0;          ///< of the work until the sample limit or the time limit, [0, 1]
-  std::uint64_t samples = 0;      ///< taken so far, over all pixels
-  double samplesPerPixel = 0.0;   ///< mean over the pixels that see media
+  double fraction = 0.0;        ///< of the work until the sample limit or the time limit, [0, 1]
+  std::uint64_t samples = 0;    ///< taken so far, over all pixels
+  double samplesPerPixel = 0.0; ///< mean over the pixels that see media
   double seconds = 0.0;
-  double error = 0.0;             ///< estimated rRMSE; infinity while unknown
+  double error = 0.0; ///< estimated rRMSE; infinity while unknown
   std::uint64_t nonFinite = 0;
 };
 
 struct RenderOptions {
-  film::Window crop;                          ///< empty: the whole image
+  film::Window crop; ///< empty: the whole image
   StopRule stop;
   std::uint32_t seed = 0;
   TracerOptions tracer;
-  std::filesystem::path checkpoint;           ///< empty: none are written; the last one when interrupted or resuming
+  std::filesystem::path checkpoint; ///< empty: none are written; the last one when interrupted or resuming
   double checkpointSeconds = 20.0;
-  bool resume = false;                        ///< go on from `checkpoint` if it is there
-  std::string sceneHash;                      ///< what a checkpoint must agree with
+  bool resume = false;   ///< go on from `checkpoint` if it is there
+  std::string sceneHash; ///< what a checkpoint must agree with
   std::function<void(const Progress&)> progress;
   const std::atomic<bool>* interrupted = nullptr;
 };
 
 struct RenderReport {
   TraceTotals totals;
-  passes::TraceSpec spec;                     ///< what was left out of the pipeline
+  passes::TraceSpec spec; ///< what was left out of the pipeline
   std::size_t kernelBytes = 0;
-  std::size_t mediaPixels = 0;                ///< pixels that may see a medium
-  std::size_t backgroundPixels = 0;           ///< finished by the first passes
-  double firstDispatchSeconds = 0.0;          ///< compilation and the first chunk
+  std::size_t mediaPixels = 0;       ///< pixels that may see a medium
+  std::size_t backgroundPixels = 0;  ///< finished by the first passes
+  double firstDispatchSeconds = 0.0; ///< compilation and the first chunk
   double seconds = 0.0;
-  std::string stoppedBy;                      ///< "samples", "time", "error" or "interrupt"
+  std::string stoppedBy; ///< "samples", "time", "error" or "interrupt"
 };
 
-/// Renders until the rule says stop. With a checkpoint the result is bit-identical to an uninterrupted render (a picture
-/// of a sample count that is not a multiple of 16 can be extended, but not to the same bits).
+/// Renders until the rule says stop. With a checkpoint the result is bit-identical to an uninterrupted render (a
+/// picture of a sample count that is not a multiple of 16 can be extended, but not to the same bits).
 /// @throws Error if the checkpoint belongs to another scene, size or seed.
 film::Film renderFilm(const gpu::Device& device, const scene::Scene& scene, const gpu_scene::VolumeSet& volumes,
                       const gpu_scene::GpuScene& gpuScene, const RenderOptions& options, RenderReport& report);

@@ -27,7 +27,8 @@ std::uint32_t mostBatches(const film::Film& film) {
 Schedule::Schedule(const StopRule& rule, const film::Film& film) : rule_(rule), passed_(mostBatches(film)) {
   for (int half = 0; half < 2; ++half) {
     const auto entry = film.metadata.find(stopKey(half)); // the target that it stopped for
-    stopped_[static_cast<std::size_t>(half)] = rule.error && entry != film.metadata.end() && std::stod(entry->second) <= *rule.error;
+    stopped_[static_cast<std::size_t>(half)] =
+        rule.error && entry != film.metadata.end() && std::stod(entry->second) <= *rule.error;
   }
 }
 
@@ -43,7 +44,9 @@ void Schedule::note(film::Film& film) const {
 
 std::uint32_t Schedule::batchSamples(std::uint32_t batch) const {
   const std::uint64_t first = std::uint64_t(batch) * film::kBatchSamples;
-  return first >= rule_.samples ? 0 : static_cast<std::uint32_t>(std::min<std::uint64_t>(film::kBatchSamples, rule_.samples - first));
+  return first >= rule_.samples
+             ? 0
+             : static_cast<std::uint32_t>(std::min<std::uint64_t>(film::kBatchSamples, rule_.samples - first));
 }
 
 std::optional<std::uint32_t> Schedule::next(const film::Film& decisions) {

@@ -12,16 +12,16 @@ namespace tyndall::render {
 
 /// When a picture is done. Whatever comes first.
 struct StopRule {
-  std::uint32_t samples = 64;         ///< per pixel
-  std::optional<double> seconds;      ///< of rendering
-  std::optional<double> error;        ///< estimated rRMSE (film::estimateError)
+  std::uint32_t samples = 64;    ///< per pixel
+  std::optional<double> seconds; ///< of rendering
+  std::optional<double> error;   ///< estimated rRMSE (film::estimateError)
 };
 
 /// Which batches to run next. By sample count: 0, 1, 2, ... By error: all of them, until both half-buffers (even and
-/// odd batches) have stopped; a half stops when the *other* one's estimate says that the picture is good. Decisions fall
-/// when each half has a power of two of batches, 64 samples at least. Batches of a half that has stopped serve decisions
-/// only and must not enter the picture: then its count depends on the other half's samples alone, and the mean of each
-/// half, and their average, stay unbiased.
+/// odd batches) have stopped; a half stops when the *other* one's estimate says that the picture is good. Decisions
+/// fall when each half has a power of two of batches, 64 samples at least. Batches of a half that has stopped serve
+/// decisions only and must not enter the picture: then its count depends on the other half's samples alone, and the
+/// mean of each half, and their average, stay unbiased.
 class Schedule {
 public:
   /// Takes up where a film, maybe of an earlier run, stands: decisions that it has passed are not taken again, and
@@ -44,7 +44,7 @@ private:
 
   StopRule rule_;
   std::uint32_t batch_ = 0;
-  std::uint32_t passed_ = 0;  ///< batches per half that the film had at the start
+  std::uint32_t passed_ = 0; ///< batches per half that the film had at the start
   std::array<bool, 2> stopped_{};
   const char* reason_ = "samples";
 };

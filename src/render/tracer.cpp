@@ -51,16 +51,17 @@ passes::TraceSpec traceSpecFor(const gpu_scene::Features& features, const Tracer
 }
 
 Tracer::Tracer(const gpu::Device& device, const gpu_scene::GpuScene& scene, const TracerOptions& options)
-    : scene_(scene), stepBound_(stepBoundFor(device, options)), spec_(traceSpecFor(scene.features(), options)), pass_(device, spec_, scene.images()),
-      pixels_(device, chunkFor(device, options), gpu::Memory::Host), sums_(device, pixels_.size(), gpu::Memory::Host),
-      counters_(device, 1, gpu::Memory::Host) {
+    : scene_(scene), stepBound_(stepBoundFor(device, options)), spec_(traceSpecFor(scene.features(), options)),
+      pass_(device, spec_, scene.images()), pixels_(device, chunkFor(device, options), gpu::Memory::Host),
+      sums_(device, pixels_.size(), gpu::Memory::Host), counters_(device, 1, gpu::Memory::Host) {
   for (gpu::Buffer<interop::TraceState>& queue : suspended_) {
     queue = gpu::Buffer<interop::TraceState>(device, pixels_.size(), gpu::Memory::Device);
   }
 }
 
 double Tracer::plannedBytes(const gpu::Device& device, const TracerOptions& options) {
-  return double(chunkFor(device, options)) * (sizeof(std::uint32_t) + sizeof(interop::PixelSums) + 2.0 * sizeof(interop::TraceState));
+  return double(chunkFor(device, options)) *
+         (sizeof(std::uint32_t) + sizeof(interop::PixelSums) + 2.0 * sizeof(interop::TraceState));
 }
 
 void Tracer::collect(const interop::TraceCounters& counters) {
@@ -73,7 +74,8 @@ void Tracer::collect(const interop::TraceCounters& counters) {
   ++totals_.dispatches;
 }
 
-std::span<const interop::PixelSums> Tracer::run(std::span<const std::uint32_t> pixels, SampleRange samples, std::uint32_t seed) {
+std::span<const interop::PixelSums> Tracer::run(std::span<const std::uint32_t> pixels, SampleRange samples,
+                                                std::uint32_t seed) {
   TYNDALL_CHECK(pixels.size() <= pixels_.size() && samples.count > 0);
   pixels_.write(pixels);
   interop::TraceInputs inputs{};

@@ -12,10 +12,10 @@ namespace tyndall::render {
 
 struct TracerOptions {
   bool aovs = false;
-  bool deltaTracking = false;          ///< distances by delta tracking even where the weighted walk would serve
-  std::uint32_t chunkPixels = 0;       ///< pixels of one dispatch; 0 = by the device's kind
-  std::uint32_t stepBound = 0;         ///< steps of one invocation in one dispatch; 0 = by the device's kind
-  std::uint32_t plantedBug = 0;        ///< tests only: interop::kBug*
+  bool deltaTracking = false;    ///< distances by delta tracking even where the weighted walk would serve
+  std::uint32_t chunkPixels = 0; ///< pixels of one dispatch; 0 = by the device's kind
+  std::uint32_t stepBound = 0;   ///< steps of one invocation in one dispatch; 0 = by the device's kind
+  std::uint32_t plantedBug = 0;  ///< tests only: interop::kBug*
 };
 
 /// Counters over all dispatches so far.
@@ -23,7 +23,7 @@ struct TraceTotals {
   std::uint64_t lookups = 0;
   std::uint64_t segments = 0;
   std::uint64_t samples = 0;
-  std::uint64_t resumed = 0;           ///< invocations that reached the step bound and went on in a next dispatch
+  std::uint64_t resumed = 0; ///< invocations that reached the step bound and went on in a next dispatch
   std::uint64_t nonFinite = 0;
   std::uint64_t negative = 0;
   std::uint64_t majorantExceeded = 0;
@@ -32,8 +32,8 @@ struct TraceTotals {
 
 /// A run of consecutive samples of one batch, the same for every pixel of a call.
 struct SampleRange {
-  std::uint32_t first = 0;   ///< index within the pixel
-  std::uint32_t count = 0;   ///< 1 .. kBatchSamples, not beyond the batch's end
+  std::uint32_t first = 0; ///< index within the pixel
+  std::uint32_t count = 0; ///< 1 .. kBatchSamples, not beyond the batch's end
 };
 
 /// Specialization of the trace pass for a scene: what it does not use has no code.
@@ -44,8 +44,10 @@ class Tracer {
 public:
   Tracer(const gpu::Device& device, const gpu_scene::GpuScene& scene, const TracerOptions& options);
 
-  /// @param pixels x | y << 16, absolute; at most chunkPixels(). @return one entry per pixel, valid until the next call.
-  std::span<const interop::PixelSums> run(std::span<const std::uint32_t> pixels, SampleRange samples, std::uint32_t seed);
+  /// @param pixels x | y << 16, absolute; at most chunkPixels(). @return one entry per pixel, valid until the next
+  /// call.
+  std::span<const interop::PixelSums> run(std::span<const std::uint32_t> pixels, SampleRange samples,
+                                          std::uint32_t seed);
 
   std::uint32_t chunkPixels() const { return static_cast<std::uint32_t>(pixels_.size()); }
   const TraceTotals& totals() const { return totals_; }

@@ -21,7 +21,8 @@ std::set<std::string> matches(const std::string& text, const std::regex& pattern
 
 /// Runs in the repository's root (tests' working folder).
 TEST(Bibliography, HoldsEveryKeyThatTheCodeCites) {
-  const std::set<std::string> known = matches(readTextFile("docs/bibliography.md"), std::regex(R"(\| ([A-Z][A-Za-z]+\d{2}) \|)"));
+  const std::set<std::string> known =
+      matches(readTextFile("docs/bibliography.md"), std::regex(R"(\| ([A-Z][A-Za-z]+\d{2}) \|)"));
   ASSERT_FALSE(known.empty());
   std::size_t cited = 0;
   for (const char* root : {"shaders", "src"}) {

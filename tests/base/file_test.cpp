@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "base/file.h"
-
 #include "base/error.h"
+#include "base/file.h"
 
 #include <gtest/gtest.h>
 
@@ -19,7 +18,8 @@ protected:
   static void write(const fs::path& path, const std::string& text) { std::ofstream(path) << text; }
   std::size_t entries() const { return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), {})); }
 
-  const fs::path folder_ = fs::temp_directory_path() / fmt::format("tyndall-file-test-{}", testing::UnitTest::GetInstance()->random_seed());
+  const fs::path folder_ =
+      fs::temp_directory_path() / fmt::format("tyndall-file-test-{}", testing::UnitTest::GetInstance()->random_seed());
 };
 
 TEST_F(FileTest, AtomicWriteReplacesWholeFiles) {
@@ -33,10 +33,12 @@ TEST_F(FileTest, AtomicWriteReplacesWholeFiles) {
 TEST_F(FileTest, FailedWriteLeavesTheOldFileAndNothingElse) {
   const fs::path path = folder_ / "a.txt";
   write(path, "old");
-  EXPECT_THROW(writeFileAtomically(path, [](const fs::path& temporary) {
-    write(temporary, "half");
-    fail("disk full");
-  }), Error);
+  EXPECT_THROW(writeFileAtomically(path,
+                                   [](const fs::path& temporary) {
+                                     write(temporary, "half");
+                                     fail("disk full");
+                                   }),
+               Error);
   EXPECT_EQ(readTextFile(path), "old");
   EXPECT_EQ(entries(), 1u);
 }

@@ -20,11 +20,13 @@ TEST(Bounds, EmptyUntilExtended) {
 
 TEST(Bounds, TransformedBoxHoldsEveryCorner) {
   const Bounds3 box{glm::dvec3(-1.0, 0.0, 2.0), glm::dvec3(1.0, 3.0, 4.0)};
-  const glm::dmat4 map = glm::rotate(glm::translate(glm::dmat4(1.0), {5.0, 6.0, 7.0}), 0.7, glm::normalize(glm::dvec3(1.0, 2.0, 3.0)));
+  const glm::dmat4 map =
+      glm::rotate(glm::translate(glm::dmat4(1.0), {5.0, 6.0, 7.0}), 0.7, glm::normalize(glm::dvec3(1.0, 2.0, 3.0)));
   const Bounds3 around = transformed(map, box);
   for (int i = 0; i < 8; ++i) {
     const glm::dvec3 corner(map * glm::dvec4(box.corner(i), 1.0));
-    EXPECT_TRUE(glm::all(glm::lessThanEqual(around.min, corner)) && glm::all(glm::greaterThanEqual(around.max, corner)));
+    EXPECT_TRUE(glm::all(glm::lessThanEqual(around.min, corner)) &&
+                glm::all(glm::greaterThanEqual(around.max, corner)));
   }
   EXPECT_TRUE(transformed(map, Bounds3{}).empty());
 }

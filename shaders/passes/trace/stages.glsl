@@ -82,7 +82,8 @@ void stageCamera(inout TraceState path, ScenePtr scene) {
   if (hit) {
     path.vertexT = path.walk.tHit;
     path.vertexMedium = path.walk.hitMedium;
-    path.vertexThroughput = (kWeighted ? path.walk.weightSum : 1.0) * homogeneousTransmittance(scene, o, d, path.vertexT);
+    path.vertexThroughput =
+        (kWeighted ? path.walk.weightSum : 1.0) * homogeneousTransmittance(scene, o, d, path.vertexT);
     path.vertexPdf = 0.0;
     path.vertexLight = kAnyLight;
     recordVertex(path, scene);
@@ -91,7 +92,7 @@ void stageCamera(inout TraceState path, ScenePtr scene) {
   noWalk(path);
 }
 
-// Free flight in homogeneous medium h, conditioned on a collision inside it: pdf sigma_t exp(-sigma_t s) / (1 - exp(-tau)).
+// Free flight in homogeneous medium h, conditioned on a collision inside it: (7) of docs/theory.md.
 void freeFlightVertex(inout TraceState path, Medium medium, vec2 interval, ScenePtr scene, inout Rng rng) {
   const float length = interval.y - interval.x;
   const float collided = oneMinusExp(medium.sigmaT * length);
@@ -101,7 +102,8 @@ void freeFlightVertex(inout TraceState path, Medium medium, vec2 interval, Scene
   // Transmittance through this medium cancels with the pdf; what is left is that of the others.
   const float ownDepth = medium.sigmaT * s;
   // Their depth is summed without this medium's: the difference would be noise where this one is opaque.
-  const float others = exp(-homogeneousDepthWithout(scene, path.vertexMedium, path.cameraOrigin, path.cameraDirection, path.vertexT));
+  const float others =
+      exp(-homogeneousDepthWithout(scene, path.vertexMedium, path.cameraOrigin, path.cameraDirection, path.vertexT));
   path.vertexThroughput = collided * others;
   path.vertexPdf = collided > 0.0 ? medium.sigmaT * exp(-ownDepth) / collided : 0.0;
   path.vertexLight = kAnyLight;
@@ -120,7 +122,8 @@ void equiangularVertex(inout TraceState path, Medium medium, vec2 interval, Scen
       break;
     }
   }
-  const Equiangular e = equiangularMake(path.cameraOrigin, path.cameraDirection, scene.at[0].points.at[light].position, interval.x, interval.y);
+  const Equiangular e = equiangularMake(path.cameraOrigin, path.cameraDirection, scene.at[0].points.at[light].position,
+                                        interval.x, interval.y);
   path.vertexT = equiangularSample(e, rngFloat(rng));
   const float pdf = equiangularPdf(e, path.vertexT);
   const float depth = homogeneousDepth(scene, path.cameraOrigin, path.cameraDirection, path.vertexT);
@@ -178,7 +181,8 @@ void stageEmission(inout TraceState path, ScenePtr scene, inout Rng rng) {
   }
   path.vertexT = tHit;
   const vec3 j = gridEmission(scene, path.vertexMedium, path.cameraOrigin + tHit * path.cameraDirection, rng);
-  path.vertexEmission = j * (inversePdf * homogeneousTransmittance(scene, path.cameraOrigin, path.cameraDirection, tHit));
+  path.vertexEmission =
+      j * (inversePdf * homogeneousTransmittance(scene, path.cameraOrigin, path.cameraDirection, tHit));
   if (path.vertexEmission != vec3(0.0)) {
     walkSegment(path, scene, path.cameraOrigin, path.cameraDirection, tHit, kWalkTransmit);
     path.stage = kStageTransmit;
@@ -201,7 +205,8 @@ float distanceWeight(TraceState path, ScenePtr scene, Medium medium, PointLight 
     return 1.0; // a grid collision: no other technique makes it
   }
   const vec2 interval = mediumInterval(medium, path.cameraOrigin, path.cameraDirection, kInfiniteDistance);
-  const Equiangular e = equiangularMake(path.cameraOrigin, path.cameraDirection, light.position, interval.x, interval.y);
+  const Equiangular e =
+      equiangularMake(path.cameraOrigin, path.cameraDirection, light.position, interval.x, interval.y);
   const float freeFlight = light.selectPdf * path.vertexPdf;
   const float equiangular = light.equiangularPdf * equiangularPdf(e, path.vertexT);
   return (path.vertexLight == kAnyLight ? freeFlight : equiangular) / (freeFlight + equiangular);
@@ -219,7 +224,8 @@ void shadePoint(inout TraceState path, ScenePtr scene, Medium medium, vec3 verte
   const float weight = distanceWeight(path, scene, medium, light) * evalPhase(medium.phase, path.cameraDirection, w);
   // Divided by the distance twice: its square over- and underflows first.
   const vec3 irradiance = kPlantedBug == kBugJacobian ? light.intensity : light.intensity / distance / distance;
-  path.pending = medium.albedo * irradiance * (path.vertexThroughput * weight / selectPdf * homogeneousTransmittance(scene, vertex, w, distance));
+  path.pending = medium.albedo * irradiance *
+                 (path.vertexThroughput * weight / selectPdf * homogeneousTransmittance(scene, vertex, w, distance));
   walkSegment(path, scene, vertex, w, distance, kWalkTransmit);
 }
 
@@ -235,7 +241,8 @@ void shadeDistant(inout TraceState path, ScenePtr scene, Medium medium, vec3 ver
     const float pdf = kPlantedBug == kBugBranchPdf ? light.selectPdf * distantPdfOf(light, w) : mixture.w + phase;
     estimate = pdf == 0.0 ? vec3(0.0) : mixture.xyz * (phase / pdf);
   }
-  path.pending = medium.albedo * estimate * (path.vertexThroughput * homogeneousTransmittance(scene, vertex, w, kInfiniteDistance));
+  path.pending = medium.albedo * estimate *
+                 (path.vertexThroughput * homogeneousTransmittance(scene, vertex, w, kInfiniteDistance));
   walkSegment(path, scene, vertex, w, kInfiniteDistance, kWalkTransmit);
 }
 
@@ -275,7 +282,8 @@ void stageLight(inout TraceState path, ScenePtr scene, inout Rng rng) {
   const float phase = evalPhase(medium.phase, path.cameraDirection, w);
   // Sampled by the phase function: its value and its pdf cancel.
   const float weight = phase == 0.0 ? 0.0 : phase / (phase + mixture.w);
-  path.pending = medium.albedo * mixture.xyz * (weight * path.vertexThroughput * homogeneousTransmittance(scene, vertex, w, kInfiniteDistance));
+  path.pending = medium.albedo * mixture.xyz *
+                 (weight * path.vertexThroughput * homogeneousTransmittance(scene, vertex, w, kInfiniteDistance));
   walkSegment(path, scene, vertex, w, kInfiniteDistance, kWalkTransmit);
   path.stage = kStageDirection;
   skipDarkSegment(path);

@@ -46,14 +46,32 @@ void finishSample(inout TraceState path) {
 // Runs the stage that follows the finished walk. Returns false when the pixel's batch is done.
 bool runStage(inout TraceState path, uvec2 pixel, inout Rng rng) {
   switch (path.stage) {
-  case kStageSample: stageSample(path, io.scene, pixel, io.seed, io.firstSample + path.sampleIndex, rng); break;
-  case kStageCamera: stageCamera(path, io.scene); break;
-  case kStageVertex: stageVertex(path, io.scene, rng); break;
-  case kStageEmission: if (kGridEmission) { stageEmission(path, io.scene, rng); } break;
-  case kStageTransmit: stageTransmit(path, io.scene); break;
-  case kStageShade: stageShade(path, io.scene, rng); break;
-  case kStageLight: stageLight(path, io.scene, rng); break;
-  case kStageDirection: stageDirection(path); break;
+  case kStageSample:
+    stageSample(path, io.scene, pixel, io.seed, io.firstSample + path.sampleIndex, rng);
+    break;
+  case kStageCamera:
+    stageCamera(path, io.scene);
+    break;
+  case kStageVertex:
+    stageVertex(path, io.scene, rng);
+    break;
+  case kStageEmission:
+    if (kGridEmission) {
+      stageEmission(path, io.scene, rng);
+    }
+    break;
+  case kStageTransmit:
+    stageTransmit(path, io.scene);
+    break;
+  case kStageShade:
+    stageShade(path, io.scene, rng);
+    break;
+  case kStageLight:
+    stageLight(path, io.scene, rng);
+    break;
+  case kStageDirection:
+    stageDirection(path);
+    break;
   }
   if (path.stage == kStageDone) {
     finishSample(path);
