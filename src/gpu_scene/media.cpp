@@ -5,6 +5,7 @@
 #include "light/blackbody.h"
 #include "light/mie.h"
 #include "math/colour.h"
+#include "scene/camera_frame.h"
 
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
@@ -17,10 +18,6 @@ namespace {
 
 using interop::Medium;
 using volume::BrickGrid;
-
-/// Below this, a grid's maximum cannot be kelvin that glow.
-constexpr double kColdestGlow = 500.0;
-constexpr double kMappedMaximum = 2000.0;
 
 Bounds3 mediumBounds(const scene::Medium& medium, const VolumeSet& volumes, const VolumeSet::Use& use) {
   Bounds3 local;
@@ -123,18 +120,18 @@ std::vector<float> coarsen(const BrickGrid& grid, const std::vector<float>& maxi
   return coarse;
 }
 
-/// A temperature grid whose maximum cannot be kelvin is mapped so that it peaks at kMappedMaximum.
+/// A temperature grid whose maximum cannot be kelvin is mapped so that it peaks at light::kMappedMaximum.
 double temperatureScaleFor(const scene::Emission& emission, const BrickGrid& grid, std::vector<std::string>& notes) {
   const double maximum = grid.maximum();
   const bool asGiven =
       !emission.temperatureAuto || emission.temperatureScale != 1.0 || emission.temperatureOffset != 0.0;
-  if (asGiven || maximum >= kColdestGlow || maximum <= 0.0) {
+  if (asGiven || maximum >= light::kColdestGlow || maximum <= 0.0) {
     return emission.temperatureScale;
   }
-  const double scale = kMappedMaximum / maximum;
+  const double scale = light::kMappedMaximum / maximum;
   notes.push_back(fmt::format("grid \"{}\" is not in kelvin (maximum {:.4g}): its maximum is taken as {:.0f} K; "
                               "\"temperature_scale\": {:.6g} in \"emission\" says the same, another value overrides it",
-                              grid.name, maximum, kMappedMaximum, scale));
+                              grid.name, maximum, light::kMappedMaximum, scale));
   return scale;
 }
 
@@ -252,9 +249,7 @@ PackedMedia packMedia(const scene::Scene& scene, const VolumeSet& volumes, const
 }
 
 interop::Camera packCamera(const scene::Camera& camera, const glm::uvec2& imageSize, const glm::dvec3& centre) {
-  const glm::dvec3 forward = glm::normalize(camera.target - camera.position);
-  const glm::dvec3 right = glm::normalize(glm::cross(forward, camera.up));
-  const glm::dvec3 up = glm::cross(right, forward);
+  const auto [forward, right, up] = scene::cameraFrame(camera);
   const bool perspective = camera.kind == scene::Camera::Kind::Perspective;
   const double halfHeight = perspective ? std::tan(glm::radians(0.5 * camera.verticalFov)) : 0.5 * camera.height;
   const double halfWidth = halfHeight * imageSize.x / imageSize.y;

@@ -7,6 +7,11 @@
 
 namespace tyndall::light {
 
+/// Kelvin. A temperature grid whose maximum is below the first cannot be in kelvin that glow; its maximum is then taken
+/// as the second.
+inline constexpr double kColdestGlow = 500.0;
+inline constexpr double kMappedMaximum = 2000.0;
+
 /// Planck's law [W/(m2 sr m)] at a wavelength in metres; 0 for kelvin <= 0.
 double planckRadiance(double wavelength, double kelvin);
 

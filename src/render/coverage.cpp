@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/coverage.h"
 
+#include "scene/camera_frame.h"
+
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
@@ -21,10 +23,8 @@ constexpr double kMargin = 0.01;
 /// The camera in double: world point -> raster position and depth.
 class Projection {
 public:
-  Projection(const scene::Camera& camera, const glm::uvec2& size) : position_(camera.position), size_(size) {
-    forward_ = glm::normalize(camera.target - camera.position);
-    right_ = glm::normalize(glm::cross(forward_, camera.up));
-    up_ = glm::cross(right_, forward_);
+  Projection(const scene::Camera& camera, const glm::uvec2& size)
+      : position_(camera.position), frame_(scene::cameraFrame(camera)), size_(size) {
     perspective_ = camera.kind == scene::Camera::Kind::Perspective;
     halfHeight_ = perspective_ ? std::tan(glm::radians(0.5 * camera.verticalFov)) : 0.5 * camera.height;
   }
@@ -32,15 +32,16 @@ public:
   /// Raster x, y in pixels and depth along the view direction.
   glm::dvec3 project(const glm::dvec3& world) const {
     const glm::dvec3 offset = world - position_;
-    const double depth = glm::dot(offset, forward_);
+    const double depth = glm::dot(offset, frame_.forward);
     const double scale = 0.5 * size_.y / (halfHeight_ * (perspective_ ? depth : 1.0));
-    return {0.5 * size_.x + scale * glm::dot(offset, right_), 0.5 * size_.y - scale * glm::dot(offset, up_), depth};
+    return {0.5 * size_.x + scale * glm::dot(offset, frame_.right), 0.5 * size_.y - scale * glm::dot(offset, frame_.up),
+            depth};
   }
   bool perspective() const { return perspective_; }
 
 private:
   glm::dvec3 position_;
-  glm::dvec3 forward_, right_, up_;
+  scene::CameraFrame frame_;
   glm::dvec2 size_;
   double halfHeight_ = 1.0;
   bool perspective_ = true;

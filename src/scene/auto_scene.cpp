@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/auto_scene.h"
 
+#include "light/blackbody.h"
 #include "light/sky.h"
 #include "math/colour.h"
 #include "scene/auto_framing.h"
+#include "scene/camera_frame.h"
 #include "volume/depth.h"
 
 #include <fmt/format.h>
@@ -23,20 +25,18 @@ constexpr unsigned kDepthLines = 400;
 constexpr double kCameraAzimuth = 32.0;   // degrees from +z towards +x: a three-quarter view
 constexpr double kCameraElevation = -8.0; // a little from below: the subject stands against the sky
 constexpr double kElevationOfFlat = 22.0;
-constexpr double kFlat = 0.45;            // height over width
-constexpr double kSunAzimuth = 55.0;      // degrees from the camera's, over the viewer's left shoulder
+constexpr double kFlat = 0.45;       // height over width
+constexpr double kSunAzimuth = 55.0; // degrees from the camera's, over the viewer's left shoulder
 constexpr double kSunElevation = 40.0;
 constexpr double kTurbidity = 2.0;
-constexpr double kSun = 48.0;             // W/m2 above the atmosphere
-constexpr double kSky = 7.0;              // lower than the sun's: single scattering leaves the subject too dark
-constexpr double kDusk = 0.12;            // of both, when the subject glows itself
-constexpr double kGlow = 0.6;             // luminance of the stronger glowing rays, W/(m2 sr)
-constexpr std::size_t kStrongRays = 12;   // of 32 x 32
-constexpr double kPlainGlow = 0.3;        // of the brightest ray
-constexpr double kClearlyMore = 1.2;      // glow that is worth another view
-constexpr double kLargestScale = 1e15;    // what a scene file takes
-constexpr double kColdestGlow = 500.0;    // a maximum below cannot be kelvin that glow
-constexpr double kMappedMaximum = 2000.0; // kelvin
+constexpr double kSun = 48.0;           // W/m2 above the atmosphere
+constexpr double kSky = 7.0;            // lower than the sun's: single scattering leaves the subject too dark
+constexpr double kDusk = 0.12;          // of both, when the subject glows itself
+constexpr double kGlow = 0.6;           // luminance of the stronger glowing rays, W/(m2 sr)
+constexpr std::size_t kStrongRays = 12; // of 32 x 32
+constexpr double kPlainGlow = 0.3;      // of the brightest ray
+constexpr double kClearlyMore = 1.2;    // glow that is worth another view
+constexpr double kLargestScale = 1e15;  // what a scene file takes
 
 glm::dvec3 directionFrom(double azimuthDegrees, double elevationDegrees) {
   const double azimuth = glm::radians(azimuthDegrees);
@@ -77,8 +77,9 @@ Medium makeMedium(const AutoInput& input) {
 void scaleDensity(const AutoInput& input, AutoScene& result) {
   double densest = 0.0;
   for (std::size_t i = 0; i < input.frames.size(); ++i) {
-    const double median =
-        holdsSomething(input.frames[i].density) ? volume::medianOpticalDepth(*input.frames[i].density, kDepthLines) : 0.0;
+    const double median = holdsSomething(input.frames[i].density)
+                              ? volume::medianOpticalDepth(*input.frames[i].density, kDepthLines)
+                              : 0.0;
     if (median > densest) {
       densest = median;
       result.densestFrame = i;
@@ -92,8 +93,9 @@ void scaleDensity(const AutoInput& input, AutoScene& result) {
   medium.densityScale = input.densityScale.value_or(medium.densityScale);
   result.medianOpticalDepth = densest * medium.densityScale;
   if (densest > 0.0) {
-    result.notes.push_back(fmt::format("median optical depth {:.3g} at density scale {:.4g} (override with --density-scale)",
-                                       result.medianOpticalDepth, medium.densityScale));
+    result.notes.push_back(
+        fmt::format("median optical depth {:.3g} at density scale {:.4g} (override with --density-scale)",
+                    result.medianOpticalDepth, medium.densityScale));
   }
 }
 
@@ -110,11 +112,11 @@ void addEmission(const AutoInput& input, AutoScene& result) {
   emission.kind = Emission::Kind::Blackbody;
   emission.grid = input.grids.temperature;
   emission.temperatureAuto = false;
-  if (hottest < kColdestGlow) {
-    emission.temperatureScale = kMappedMaximum / hottest;
+  if (hottest < light::kColdestGlow) {
+    emission.temperatureScale = light::kMappedMaximum / hottest;
     result.notes.push_back(fmt::format("grid '{}' is not in kelvin (maximum {:.4g}): its maximum is taken as {:.0f} K "
                                        "(override with --set media.0.emission.temperature_scale=...)",
-                                       emission.grid, hottest, kMappedMaximum));
+                                       emission.grid, hottest, light::kMappedMaximum));
   }
   result.scene.media.front().emission = emission;
 }
@@ -139,16 +141,13 @@ std::vector<VisibleVolume> visibleVolumes(const AutoInput& input, const Medium& 
 /// the rays that have none.
 std::vector<double> glowsSeen(const std::vector<VisibleVolume>& volumes, const Camera& camera) {
   constexpr int kEdge = 32;
-  const glm::dvec3 forward = glm::normalize(camera.target - camera.position);
-  const glm::dvec3 right = glm::normalize(glm::cross(forward, camera.up));
-  const glm::dvec3 up = glm::cross(right, forward);
+  const auto [forward, right, up] = cameraFrame(camera);
   const double half = std::tan(glm::radians(0.5 * camera.verticalFov));
   std::vector<double> glows;
   for (const VisibleVolume& volume : volumes) {
     for (int i = 0; i < kEdge * kEdge; ++i) {
       const glm::dvec2 place = half * ((glm::dvec2(i % kEdge, i / kEdge) + 0.5) * (2.0 / kEdge) - 1.0);
-      const double glow =
-          glowAlong(volume, camera.position, glm::normalize(forward + place.x * right + place.y * up));
+      const double glow = glowAlong(volume, camera.position, glm::normalize(forward + place.x * right + place.y * up));
       if (glow > 0.0) {
         glows.push_back(glow);
       }
@@ -164,7 +163,8 @@ double glowScale(const std::vector<double>& glows) {
   if (glows.empty()) {
     return 1.0;
   }
-  const double strong = std::max(glows[std::min<std::size_t>(kStrongRays, glows.size() - 1)], kPlainGlow * glows.front());
+  const double strong =
+      std::max(glows[std::min<std::size_t>(kStrongRays, glows.size() - 1)], kPlainGlow * glows.front());
   return std::min(kGlow / strong, kLargestScale);
 }
 

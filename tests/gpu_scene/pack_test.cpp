@@ -4,9 +4,8 @@
 #include "gpu_scene/media.h"
 #include "volume/load.h"
 
-#include <gtest/gtest.h>
-
 #include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
@@ -26,7 +25,9 @@ scene::Scene lit(std::vector<scene::Light> lights) {
 
 Bounds3 unitBounds() { return {glm::dvec3(-1.0), glm::dvec3(1.0)}; }
 
-glm::dvec3 apply(const glm::mat4x3& map, const glm::dvec3& point) { return glm::dvec3(map * glm::vec4(glm::vec3(point), 1.0f)); }
+glm::dvec3 apply(const glm::mat4x3& map, const glm::dvec3& point) {
+  return glm::dvec3(map * glm::vec4(glm::vec3(point), 1.0f));
+}
 
 TEST(PackCamera, CornersOfThePictureAreWhereTheyShouldBe) {
   scene::Camera camera;
@@ -37,24 +38,29 @@ TEST(PackCamera, CornersOfThePictureAreWhereTheyShouldBe) {
   EXPECT_NEAR(glm::distance(packed.origin, glm::vec3(0.0f, 0.0f, 5.0f)), 0.0f, 1e-6f);
   // Top left: half an image up and, at twice the width, a whole one to the left.
   EXPECT_NEAR(glm::distance(packed.corner, glm::vec3(-2.0f, 1.0f, -1.0f)), 0.0f, 1e-6f);
-  EXPECT_NEAR(glm::distance(packed.corner + packed.rasterX + packed.rasterY, glm::vec3(2.0f, -1.0f, -1.0f)), 0.0f, 1e-6f);
+  EXPECT_NEAR(glm::distance(packed.corner + packed.rasterX + packed.rasterY, glm::vec3(2.0f, -1.0f, -1.0f)), 0.0f,
+              1e-6f);
 }
 
 TEST(PackGrid, VoxelSpaceIsIndexSpaceFromTheFirstVoxelOn) {
-  const glm::dmat4 worldFromIndex = glm::translate(glm::dmat4(1.0), glm::dvec3(1e5, 0.0, 0.0)) * glm::scale(glm::dmat4(1.0), glm::dvec3(0.5));
-  const volume::BrickGrid grid = volume::gridFromDense(std::vector<float>(27, 1.0f), glm::ivec3(3), {-1, 4, 20}, worldFromIndex);
+  const glm::dmat4 worldFromIndex =
+      glm::translate(glm::dmat4(1.0), glm::dvec3(1e5, 0.0, 0.0)) * glm::scale(glm::dmat4(1.0), glm::dvec3(0.5));
+  const volume::BrickGrid grid =
+      volume::gridFromDense(std::vector<float>(27, 1.0f), glm::ivec3(3), {-1, 4, 20}, worldFromIndex);
   const glm::dvec3 centre(1e5, 0.0, 0.0);
   const interop::Grid packed = packGrid(grid, glm::dmat4(1.0), centre);
   const glm::dvec3 index(0.25, 5.5, 21.0);
   const glm::dvec3 world(worldFromIndex * glm::dvec4(index, 1.0));
-  EXPECT_NEAR(glm::distance(apply(packed.voxelFromWorld, world - centre), index - glm::dvec3(grid.firstVoxel)), 0.0, 1e-5);
+  EXPECT_NEAR(glm::distance(apply(packed.voxelFromWorld, world - centre), index - glm::dvec3(grid.firstVoxel)), 0.0,
+              1e-5);
   EXPECT_EQ(packed.boundsMin, glm::vec3(grid.indexBounds().min - glm::dvec3(grid.firstVoxel)));
   EXPECT_EQ(packed.brickCount, grid.brickCount);
 }
 
 TEST(PackLights, ProbabilitiesAreThoseOfADistribution) {
-  const scene::Scene scene = lit({scene::PointLight{{2.0, 0.0, 0.0}, glm::dvec3(3.0)}, scene::PointLight{{0.0, 9.0, 0.0}, glm::dvec3(1e-9)},
-                                  scene::SunLight{}, scene::SunLight{{1.0, 0.0, 0.0}, glm::dvec3(1e12), 0.0}, scene::ConstantEnvironment{}});
+  const scene::Scene scene =
+      lit({scene::PointLight{{2.0, 0.0, 0.0}, glm::dvec3(3.0)}, scene::PointLight{{0.0, 9.0, 0.0}, glm::dvec3(1e-9)},
+           scene::SunLight{}, scene::SunLight{{1.0, 0.0, 0.0}, glm::dvec3(1e12), 0.0}, scene::ConstantEnvironment{}});
   const PackedLights lights = packLights(scene, unitBounds(), glm::dvec3(0.0));
   double points = 0.0;
   double equiangular = 0.0;
@@ -78,8 +84,9 @@ TEST(PackLights, ProbabilitiesAreThoseOfADistribution) {
 }
 
 TEST(PackLights, BlackOnesAreLeftOut) {
-  const scene::Scene scene = lit({scene::PointLight{{0.0, 0.0, 0.0}, glm::dvec3(0.0)}, scene::SunLight{{0.0, -1.0, 0.0}, glm::dvec3(0.0), 0.5},
-                                  scene::ConstantEnvironment{glm::dvec3(0.0)}});
+  const scene::Scene scene =
+      lit({scene::PointLight{{0.0, 0.0, 0.0}, glm::dvec3(0.0)}, scene::SunLight{{0.0, -1.0, 0.0}, glm::dvec3(0.0), 0.5},
+           scene::ConstantEnvironment{glm::dvec3(0.0)}});
   const PackedLights lights = packLights(scene, unitBounds(), glm::dvec3(0.0));
   EXPECT_TRUE(lights.points.empty());
   EXPECT_TRUE(lights.distant.empty());
@@ -88,7 +95,8 @@ TEST(PackLights, BlackOnesAreLeftOut) {
 
 TEST(PackLights, DiscOfASunHasItsIrradiance) {
   for (const double diameter : {0.01, 0.53, 10.0, 120.0}) {
-    const PackedLights lights = packLights(lit({scene::SunLight{{0.0, -1.0, 0.0}, glm::dvec3(7.0), diameter}}), unitBounds(), glm::dvec3(0.0));
+    const PackedLights lights =
+        packLights(lit({scene::SunLight{{0.0, -1.0, 0.0}, glm::dvec3(7.0), diameter}}), unitBounds(), glm::dvec3(0.0));
     const interop::DistantLight& sun = lights.distant.front();
     // Irradiance on the plane across the axis: 2 pi L times the integral of cosines from cos(half angle) to 1.
     const double m = double(sun.oneMinusCos);
@@ -134,6 +142,46 @@ TEST(PackMedia, EmissionMaximaCoverTheStrongestValue) {
   EXPECT_EQ(packed.media[0].densityGrid, interop::kNoGrid);
   EXPECT_GT(packed.placements[0].coarseMaxima[0], 0.0f);
   EXPECT_EQ(packed.emissive, std::vector<std::uint32_t>{0});
+}
+
+// Fails if corners are uploaded as given: at 1e5 units a float resolves 0.008.
+TEST(PackMedia, ShapesFarFromTheOriginKeepTheirSize) {
+  scene::Scene scene;
+  scene::Medium medium;
+  medium.shape = scene::MediumShape::Box;
+  medium.box = {glm::dvec3(1e5 - 0.001), glm::dvec3(1e5 + 0.001)};
+  scene.media.push_back(medium);
+  VolumeSet volumes;
+  volumes.uses.resize(1);
+  const PackedMedia packed = packMedia(scene, volumes, medium.box.centre());
+  ASSERT_EQ(packed.media.size(), 1u);
+  EXPECT_NEAR(packed.media[0].shapeMax.x - packed.media[0].shapeMin.x, 0.002f, 1e-7f);
+  EXPECT_NEAR(glm::length(apply(packed.media[0].mediumFromWorld, glm::dvec3(0.0))), 0.0, 1e-6);
+}
+
+// A volume set may hold a temperature grid for a medium that does not glow.
+TEST(PackMedia, TemperatureWithoutEmissionIsLeftOut) {
+  scene::Scene scene;
+  scene::Medium medium;
+  medium.file = "cold.vdb";
+  scene.media.push_back(medium);
+  VolumeSet volumes;
+  volumes.grids.push_back(
+      volume::gridFromDense(std::vector<float>(27, 1.0f), glm::ivec3(3), glm::ivec3(0), glm::dmat4(1.0)));
+  volumes.uses.push_back({std::size_t{0}, std::size_t{0}});
+  const PackedMedia packed = packMedia(scene, volumes, glm::dvec3(0.0));
+  ASSERT_EQ(packed.media.size(), 1u);
+  EXPECT_EQ(packed.media[0].emissionGrid, interop::kNoGrid);
+  EXPECT_TRUE(packed.emissive.empty());
+}
+
+// Float directions would lose up to half of the samples of such a disc at its rim.
+TEST(PackLights, SunsTooSmallForFloatDirectionsLightFromOneDirection) {
+  scene::SunLight sun;
+  sun.angularDiameter = 0.001;
+  EXPECT_EQ(packLights(lit({sun}), unitBounds(), glm::dvec3(0.0)).distant[0].kind, interop::kDistantDelta);
+  sun.angularDiameter = 0.53;
+  EXPECT_EQ(packLights(lit({sun}), unitBounds(), glm::dvec3(0.0)).distant[0].kind, interop::kDistantDisc);
 }
 
 } // namespace
