@@ -15,6 +15,7 @@ namespace tyndall::interop {
 using glm::ivec2;
 using glm::ivec3;
 using glm::ivec4;
+using glm::mat4;
 using glm::mat4x3;
 using glm::uvec2;
 using glm::uvec3;

@@ -57,21 +57,23 @@ vec3 distantBackground(ScenePtr scene, vec3 w) {
   return radiance;
 }
 
-// A direction towards one light at infinity, by its own sampler.
-vec3 distantDirection(DistantLight light, inout Rng rng) {
+// A direction towards a sun or a constant environment; xi uniform in [0, 1).
+vec3 distantDirectionAt(DistantLight light, vec2 xi) {
   if (light.kind == kDistantDelta) {
     return light.toLight;
   }
-  if (light.kind == kDistantDisc) {
-    return uniformConeSample(light.toLight, light.oneMinusCos, rngFloat2(rng));
+  return light.kind == kDistantDisc ? uniformConeSample(light.toLight, light.oneMinusCos, xi) : uniformSphereSample(xi);
+}
+
+// A direction towards one light at infinity, by its own sampler.
+vec3 distantDirection(DistantLight light, inout Rng rng) {
+  if (light.kind == kDistantMap) {
+    vec3 w;
+    float pdf;
+    environmentSample(light.map, rng, w, pdf);
+    return w;
   }
-  if (light.kind == kDistantConstant) {
-    return uniformSphereSample(rngFloat2(rng));
-  }
-  vec3 w;
-  float pdf;
-  environmentSample(light.map, rng, w, pdf);
-  return w;
+  return distantDirectionAt(light, light.kind == kDistantDelta ? vec2(0.0) : rngFloat2(rng));
 }
 
 // Index of the light that `xi` in [0, 1) falls on; selectPdf sums to pointShare over point lights.

@@ -1,38 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// The emission coefficient j [W/(m3 sr)] of media.
+// The emission coefficient j [W/(m3 sr)] of grid media.
 #ifndef TYNDALL_MEDIUM_EMISSION_GLSL
 #define TYNDALL_MEDIUM_EMISSION_GLSL
 
 #include "interop/scene.h"
 #include "light/blackbody.glsl"
-#include "medium/atlas.glsl"
 
-// Emission of a grid medium at a centred world point. All 8 taps first, then Planck: it is not linear.
-vec3 gridEmission(ScenePtr scene, uint mediumIndex, vec3 point, inout Rng rng) {
-  MediumPtr media = scene.at[0].media;
-  Grid grid = scene.at[0].grids.at[media.at[mediumIndex].emissionGrid];
-  const vec3 voxel = grid.voxelFromWorld * vec4(point, 1.0);
-  float value = gridTrilinear(grid, voxel);
-  if (kPlantedBug == kBugOneTapBlackbody) {
-    const ivec3 brick = clamp(ivec3(floor(voxel / float(kBrickEdge))), ivec3(0), grid.brickCount - 1);
-    value = gridOneTap(grid, brick, voxel, rng);
-  }
-  vec3 j = media.at[mediumIndex].emission;
-  if (media.at[mediumIndex].emissionKind == kEmissionBlackbody) {
-    const float kelvin = media.at[mediumIndex].temperatureScale * value + media.at[mediumIndex].temperatureOffset;
-    j *= blackbodyRadiance(scene.at[0].blackbody, kelvin);
+// Emission of a grid medium where its emission grid has `value` and its extinction is `sigmaT`. Not linear in the value.
+vec3 emissionOf(Medium medium, vec3Ptr blackbody, float value, float sigmaT) {
+  vec3 j = medium.emission;
+  if (medium.emissionKind == kEmissionBlackbody) {
+    j *= blackbodyRadiance(blackbody, medium.temperatureScale * value + medium.temperatureOffset);
   } else {
     j *= max(value, 0.0);
   }
-  if (media.at[mediumIndex].emissionTied != 0u) {
-    float sigmaT = 0.0;
-    if (media.at[mediumIndex].densityGrid != kNoGrid) {
-      Grid density = scene.at[0].grids.at[media.at[mediumIndex].densityGrid];
-      sigmaT = media.at[mediumIndex].sigmaT * gridTrilinear(density, density.voxelFromWorld * vec4(point, 1.0));
-    }
-    j *= sigmaT * (1.0 - media.at[mediumIndex].albedo);
-  }
-  return j;
+  return medium.emissionTied != 0u ? j * sigmaT * (1.0 - medium.albedo) : j;
 }
 
 #endif

@@ -23,11 +23,11 @@ constexpr double kDefaultMemoryShare = 0.8;
 /// Bytes that the volumes may take.
 double volumeBudget(const RenderRequest& request, const gpu::Device& device) {
   const double all = request.memoryBytes.value_or(kDefaultMemoryShare * double(device.info().memoryBytes));
-  const double tracer = render::Tracer::plannedBytes(device, tracerOptions(request));
-  if (all <= tracer) {
-    fail("--memory: rendering alone needs {} on this device; allow more", inBytes(tracer));
+  const double estimator = render::plannedBytes(device, {.method = request.method.value_or(render::Method::Tracking)});
+  if (all <= estimator) {
+    fail("--memory: rendering alone needs {} on this device; allow more", inBytes(estimator));
   }
-  return all - tracer;
+  return all - estimator;
 }
 
 std::vector<std::optional<int>> framesOf(const RenderRequest& request) {
@@ -114,7 +114,7 @@ private:
 
   Prepared prepare(const std::optional<int>& frame) {
     const Stopwatch load;
-    Prepared prepared{.scene = sceneOfFrame(source_.scene, frame), .volumes = {}, .gpuScene = {}, .timings = timings_};
+    Prepared prepared{.scene = sceneOfFrame(source_.scene, frame), .volumes = {}, .choice = {}, .gpuScene = {}, .timings = timings_};
     if (source_.volumes && (!frame || frame == source_.exposureFrame)) {
       prepared.volumes = std::move(*source_.volumes);
       source_.volumes.reset();
@@ -123,7 +123,9 @@ private:
     }
     prepared.timings.load += load.seconds();
     const Stopwatch upload;
-    prepared.gpuScene = std::make_unique<gpu_scene::GpuScene>(device_, prepared.scene, prepared.volumes);
+    prepared.choice = render::chooseMethod(prepared.scene, prepared.volumes, request_.method, budget_);
+    prepared.gpuScene = std::make_unique<gpu_scene::GpuScene>(device_, prepared.scene, prepared.volumes,
+                                                              render::layoutOf(prepared.choice.method));
     prepared.timings.upload = upload.seconds();
     tellAbout(prepared);
     return prepared;
@@ -136,6 +138,7 @@ private:
     for (const std::string& note : prepared.gpuScene->notes()) {
       say()(note);
     }
+    say()(fmt::format("estimator: {} ({})", render::methodName(prepared.choice.method), prepared.choice.reason));
     say()(fmt::format("device memory: {} of {} allowed, on {}", inBytes(double(device_.allocatedBytes())),
                       inBytes(budget_), device_.info().name));
     const std::vector<volume::BrickGrid>& grids = prepared.volumes.grids;
@@ -153,7 +156,8 @@ private:
     preparedFrame_ = source_.exposureFrame;
     const Stopwatch watch;
     source_.scene.film.exposure =
-        chooseExposure(device_, prepared_->scene, *prepared_->gpuScene, tracerOptions(request_));
+        chooseExposure(device_, prepared_->scene, prepared_->volumes, *prepared_->gpuScene,
+                       estimatorOptions(request_, prepared_->choice));
     timings_.exposure = watch.seconds();
     prepared_->timings.exposure = timings_.exposure;
     if (preparedFrame_ != framesOf(request_).front()) {

@@ -35,8 +35,8 @@ std::vector<float> smoothed(const std::vector<float>& channel, const glm::ivec2&
 
 } // namespace
 
-double chooseExposure(const gpu::Device& device, const scene::Scene& scene, const gpu_scene::GpuScene& gpuScene,
-                      const render::TracerOptions& options) {
+double chooseExposure(const gpu::Device& device, const scene::Scene& scene, const gpu_scene::VolumeSet& volumes,
+                      const gpu_scene::GpuScene& gpuScene, const render::EstimatorOptions& options) {
   const glm::uvec2 size = scene.film.size;
   const std::uint32_t stride = std::max(1u, (std::max(size.x, size.y) + kLongerEdge - 1) / kLongerEdge);
   const glm::uvec2 previewSize = (size + stride - 1u) / stride;
@@ -47,10 +47,10 @@ double chooseExposure(const gpu::Device& device, const scene::Scene& scene, cons
     }
   }
   film::Film film(previewSize, {glm::uvec2(0), previewSize});
-  render::Tracer tracer(device, gpuScene, options);
-  for (std::size_t first = 0; first < pixels.size(); first += tracer.chunkPixels()) {
-    const std::size_t count = std::min<std::size_t>(tracer.chunkPixels(), pixels.size() - first);
-    const auto sums = tracer.run(std::span(pixels).subspan(first, count), {0, kSamples}, scene.render.seed);
+  const std::unique_ptr<render::Estimator> estimator = render::makeEstimator(device, gpuScene, volumes, options);
+  for (std::size_t first = 0; first < pixels.size(); first += estimator->chunkPixels()) {
+    const std::size_t count = std::min<std::size_t>(estimator->chunkPixels(), pixels.size() - first);
+    const auto sums = estimator->run(std::span(pixels).subspan(first, count), {0, kSamples}, scene.render.seed);
     for (std::size_t i = 0; i < count; ++i) {
       film::BatchSums batch;
       std::copy(std::begin(sums[i].moments), std::end(sums[i].moments), batch.moments.begin());

@@ -69,6 +69,15 @@ void addWork(CLI::App& command, RenderRequest& request) {
   text(command, "--device", [&request](const std::string& value) { request.device = value; },
        "Vulkan device, by number or part of its name", "NAME");
   parsed(command, "--memory", request.memoryBytes, parseBytes, {"SIZE", "device memory to use at most: 800M, 2G (default 80 %)"});
+  text(command, "--estimator", [&request](const std::string& value) {
+    if (value != "auto" && value != "march" && value != "tracking") {
+      fail("--estimator {}: there are auto (the default), march and tracking", value);
+    }
+    request.method = value == "march" ? std::optional(render::Method::March)
+                     : value == "tracking" ? std::optional(render::Method::Tracking) : std::nullopt;
+  }, "how light along a ray is computed: auto, march or tracking", "NAME");
+  command.add_flag("--preview", request.preview,
+                   "BIASED, faster: the march trusts its light caches and leaves out their correction");
   text(command, "--tracker", [&request](const std::string& value) {
     if (value != "weighted" && value != "delta") {
       fail("--tracker {}: there are weighted (the default) and delta", value);

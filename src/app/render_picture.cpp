@@ -45,11 +45,11 @@ film::Film renderWithProgress(const PictureContext& context, const Prepared& pre
   options.crop = request.crop.value_or(film::Window{});
   options.stop = stopRule(request, prepared.scene);
   options.seed = prepared.scene.render.seed;
-  options.tracer = tracerOptions(request);
+  options.estimator = estimatorOptions(request, prepared.choice);
   options.checkpoint = files.checkpoint;
   options.checkpointSeconds = request.checkpointSeconds;
   options.resume = request.resume;
-  options.sceneHash = sceneHash(prepared.scene, prepared.volumes, request);
+  options.sceneHash = sceneHash(prepared.scene, prepared.volumes, options.estimator);
   options.interrupted = &context.interrupted;
   options.progress = [&](const render::Progress& progress) {
     render::Progress shown = progress;
@@ -139,8 +139,12 @@ int judge(const PictureContext& context, const RenderRecord& record, const film:
 
 } // namespace
 
-render::TracerOptions tracerOptions(const RenderRequest& request) {
-  return {.aovs = request.deviceAovs(), .deltaTracking = request.deltaTracking};
+render::EstimatorOptions estimatorOptions(const RenderRequest& request, const render::MethodChoice& choice) {
+  return {.method = choice.method,
+          .aovs = request.deviceAovs(),
+          .deltaTracking = request.deltaTracking,
+          .preview = request.preview,
+          .cacheBytes = choice.cacheBytes};
 }
 
 int renderPicture(const PictureContext& context, const Prepared& prepared, const OutputFiles& files) {
@@ -151,10 +155,11 @@ int renderPicture(const PictureContext& context, const Prepared& prepared, const
                       .volumes = prepared.volumes,
                       .device = context.device,
                       .report = report,
+                      .choice = prepared.choice,
                       .error = {},
                       .png = {},
                       .plannedBytes = prepared.volumes.deviceBytes() +
-                                      render::Tracer::plannedBytes(context.device, tracerOptions(context.request)),
+                                      render::plannedBytes(context.device, estimatorOptions(context.request, prepared.choice)),
                       .timings = prepared.timings,
                       .notes = prepared.volumes.notes};
   const std::vector<std::string>& sceneNotes = prepared.gpuScene->notes();

@@ -4,6 +4,7 @@
 #include "app/render_source.h"
 #include "app/render_statistics.h"
 #include "gpu_scene/gpu_scene.h"
+#include "render/choose.h"
 
 #include <atomic>
 #include <memory>
@@ -14,6 +15,7 @@ namespace tyndall::app {
 struct Prepared {
   scene::Scene scene;
   gpu_scene::VolumeSet volumes;
+  render::MethodChoice choice;
   std::unique_ptr<gpu_scene::GpuScene> gpuScene;
   Timings timings;
 };
@@ -26,7 +28,7 @@ struct PictureContext {
   Say say;
 };
 
-render::TracerOptions tracerOptions(const RenderRequest& request);
+render::EstimatorOptions estimatorOptions(const RenderRequest& request, const render::MethodChoice& choice);
 
 /// Renders one picture, writes its files and says what came out.
 /// @return exit code: 0, 1 if the picture is unsound (samples that were not finite, or a majorant exceeded), 130 if it

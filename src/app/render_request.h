@@ -2,6 +2,7 @@
 #pragma once
 
 #include "film/film.h"
+#include "render/estimator.h"
 #include "scene/auto_scene.h"
 #include "scene/load.h"
 #include "volume/sequence.h"
@@ -34,6 +35,8 @@ struct RenderRequest {
   std::filesystem::path writeScene;           ///< empty: none
   bool quiet = false;
   bool mergeable = false;
+  std::optional<render::Method> method;       ///< nullopt: chosen for the scene
+  bool preview = false;                       ///< biased: the march without its correction
   bool deltaTracking = false;
   std::string device;                         ///< index or part of the name
   std::optional<double> memoryBytes;

@@ -163,7 +163,7 @@ scene::Scene sceneOfFrame(const scene::Scene& scene, std::optional<int> frame) {
   return result;
 }
 
-std::string sceneHash(const scene::Scene& scene, const gpu_scene::VolumeSet& volumes, const RenderRequest& request) {
+std::string sceneHash(const scene::Scene& scene, const gpu_scene::VolumeSet& volumes, const render::EstimatorOptions& estimator) {
   scene::Scene core = scene;
   core.name.clear();
   core.film.exposure = 0.0;
@@ -182,8 +182,10 @@ std::string sceneHash(const scene::Scene& scene, const gpu_scene::VolumeSet& vol
   for (const volume::BrickGrid& grid : volumes.grids) {
     text += volume::storageName(grid.storage);
   }
-  text += request.deltaTracking ? "delta" : "weighted";
-  text += request.deviceAovs() ? " layers" : "";
+  text += render::methodName(estimator.method);
+  text += estimator.deltaTracking ? "delta" : "weighted";
+  text += estimator.preview ? " preview" : "";
+  text += estimator.aovs ? " layers" : "";
   return fmt::format("{:016x}", hashText(text));
 }
 

@@ -32,7 +32,7 @@ Source readSource(const RenderRequest& request, double memoryBudget, const Say& 
 scene::Scene sceneOfFrame(const scene::Scene& scene, std::optional<int> frame);
 
 /// 64-bit hash, as hex, of everything that decides the bits of a picture: the scene with what its files hold, the
-/// storage of its voxels, and the tracker. Sample counts, seed, exposure and names have no say.
-std::string sceneHash(const scene::Scene& scene, const gpu_scene::VolumeSet& volumes, const RenderRequest& request);
+/// storage of its voxels, and the estimator. Sample counts, seed, exposure and names have no say.
+std::string sceneHash(const scene::Scene& scene, const gpu_scene::VolumeSet& volumes, const render::EstimatorOptions& estimator);
 
 } // namespace tyndall::app

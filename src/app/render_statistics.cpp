@@ -15,25 +15,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const char* trackerName(const passes::TraceSpec& spec) { return spec.kWeighted ? "weighted" : "delta"; }
-
 Json finiteOrNull(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-/// Flags of the pipeline by name: "on" or "left out"; numbers as they are.
-Json features(const passes::TraceSpec& spec) {
-  Json result = Json::object();
-  const auto note = [&](const char* name, auto value) {
-    const std::string key = name + 1; // without the k
-    if constexpr (std::is_same_v<decltype(value), bool>) {
-      result[key] = value ? "on" : "left out";
-    } else {
-      result[key] = value;
-    }
-  };
-#define SPEC(type, name, id, value) note(#name, spec.name);
-  TYNDALL_TRACE_SPEC(SPEC)
-#undef SPEC
-  return result;
+/// What made the picture, its bias included.
+std::string estimatorText(const RenderRecord& record) {
+  const std::string name = render::methodName(record.choice.method);
+  return record.request.preview ? name + ", preview (biased)" : name;
 }
 
 Json gridsJson(const gpu_scene::VolumeSet& volumes) {
@@ -61,7 +48,7 @@ Json settingsJson(const RenderRecord& record) {
                 {"samples_limit", scene.render.samples},
                 {"seed", scene.render.seed},
                 {"depth", scene.render.depth},
-                {"tracker", trackerName(record.report.spec)},
+                {"estimator", estimatorText(record)},
                 {"transparent", scene.film.transparent},
                 {"exposure_stops", scene.film.exposure},
                 {"view", scene.film.view == scene::View::Filmic ? "filmic" : "standard"}};
@@ -82,7 +69,7 @@ Json settingsJson(const RenderRecord& record) {
 
 std::string statisticsJson(const RenderRecord& record, const film::Metadata& metadata) {
   const render::RenderReport& report = record.report;
-  const render::TraceTotals& totals = report.totals;
+  const render::Totals& totals = report.totals;
   Json root;
   root["version"] = TYNDALL_VERSION;
   root["device"] = {{"name", record.device.info().name},
@@ -101,16 +88,25 @@ std::string statisticsJson(const RenderRecord& record, const film::Metadata& met
   root["samples"] = totals.samples;
   root["density_lookups"] = totals.lookups;
   root["segments"] = totals.segments;
+  root["ray_pieces"] = totals.steps;
   root["dispatches"] = totals.dispatches;
   root["pixels"] = {{"media", report.mediaPixels}, {"background_only", report.backgroundPixels}};
   root["device_bytes"] = {{"planned", record.plannedBytes}, {"peak", record.device.peakBytes()}};
   root["kernel_bytes"] = report.kernelBytes;
+  root["estimator"] = {{"name", render::methodName(record.choice.method)},
+                       {"reason", record.choice.reason},
+                       {"biased", record.request.preview}};
+  root["light_caches"] = {{"count", report.caches.count},
+                          {"dropped", report.caches.dropped},
+                          {"bytes", report.caches.bytes},
+                          {"build_seconds", report.caches.seconds}};
   root["grids"] = gridsJson(record.volumes);
-  root["pipeline"] = features(report.spec);
+  root["pipeline"] = report.pipeline;
   root["counters"] = {{"nonfinite_samples", totals.nonFinite},
                       {"majorant_exceeded", totals.majorantExceeded},
                       {"negative_samples", totals.negative},
-                      {"resumed_tracks", totals.resumed}};
+                      {"resumed_tracks", totals.resumed},
+                      {"cut_rays", totals.cut}};
   root["error"] = {{"relative", finiteOrNull(record.error.relative)},
                    {"upper_bound_90_percent", finiteOrNull(record.error.upper)},
                    {"covered_pixels", record.error.coveredPixels}};
@@ -125,7 +121,7 @@ film::Metadata pictureMetadata(const RenderRecord& record) {
   metadata["input"] = record.request.input;
   metadata["scene.name"] = record.scene.name;
   metadata["depth"] = std::to_string(record.scene.render.depth);
-  metadata["tracker"] = trackerName(record.report.spec);
+  metadata["estimator"] = estimatorText(record);
   metadata["stop.reason"] = record.report.stoppedBy;
   metadata["stop.samples"] = std::to_string(record.scene.render.samples);
   metadata["error.relative"] = fmt::format("{:.6g}", record.error.relative);

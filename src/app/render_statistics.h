@@ -6,6 +6,7 @@
 #include "film/png.h"
 #include "gpu/device.h"
 #include "gpu_scene/volumes.h"
+#include "render/choose.h"
 #include "render/renderer.h"
 
 namespace tyndall::app {
@@ -26,6 +27,7 @@ struct RenderRecord {
   const gpu_scene::VolumeSet& volumes;
   const gpu::Device& device;
   const render::RenderReport& report;
+  const render::MethodChoice& choice;
   film::ErrorEstimate error;
   film::PngReport png;
   double plannedBytes = 0.0;  ///< on the device, before anything was uploaded

@@ -37,7 +37,7 @@ struct Cost {
 
 struct Figures {
   Cost cost;
-  render::TraceTotals totals;
+  render::Totals totals;
   std::size_t pixels = 0;
 };
 
@@ -99,7 +99,7 @@ Figures renderOnce(const gpu::Device& device, const scene::Scene& scene, const g
                    const gpu_scene::GpuScene& gpuScene, std::uint32_t samples, bool delta) {
   render::RenderOptions options;
   options.stop.samples = samples;
-  options.tracer.deltaTracking = delta;
+  options.estimator.deltaTracking = delta;
   render::RenderReport report;
   Figures figures;
   figures.cost = costOf([&] { render::renderFilm(device, scene, volumes, gpuScene, options, report); });
@@ -115,7 +115,7 @@ void printRow(const char* name, const std::vector<Figures>& runs) {
     wall.push_back(each.cost.wall);
     cpu.push_back(each.cost.cpu);
   }
-  const render::TraceTotals& totals = runs.front().totals;
+  const render::Totals& totals = runs.front().totals;
   const double samples = double(totals.samples);
   const double time = median(wall);
   fmt::print("{:<28} {:>8.3f} {:>8.3f} {:>11.2f} {:>12.2f} {:>12.2f} {:>15.2f}\n", name, time, median(cpu),

@@ -36,19 +36,21 @@ Features featuresOf(const scene::Scene& scene, const PackedMedia& media, const P
 
 } // namespace
 
-GpuScene::GpuScene(const gpu::Device& device, const scene::Scene& scene, const VolumeSet& volumes) {
-  const Bounds3 bounds = sceneBounds(scene, volumes);
-  centre_ = bounds.centre();
-  packed_ = packMedia(scene, volumes, centre_);
-  atlas_ = Atlas(device, volumes.grids);
-  PackedLights lights = packLights(scene, bounds, centre_);
-  features_ = featuresOf(scene, packed_, lights, atlas_.formatMask());
-  loopCount_ = static_cast<std::uint32_t>(packed_.homogeneousCount + lights.points.size() + lights.distant.size());
+GpuScene::GpuScene(const gpu::Device& device, const scene::Scene& scene, const VolumeSet& volumes, GridLayout layout)
+    : layout_(layout), bounds_(sceneBounds(scene, volumes)), centre_(bounds_.centre()),
+      packed_(packMedia(scene, volumes, centre_)), lights_(packLights(scene, bounds_, centre_)) {
+  if (layout == GridLayout::Cells) {
+    cellGrids_ = CellGrids(device, packed_, volumes);
+  } else {
+    atlas_ = Atlas(device, volumes.grids);
+    uploadGrids(device);
+  }
+  features_ = featuresOf(scene, packed_, lights_, atlas_.formatMask());
+  loopCount_ = static_cast<std::uint32_t>(packed_.homogeneousCount + lights_.points.size() + lights_.distant.size());
   notes_ = packed_.notes;
-  notes_.insert(notes_.end(), lights.notes.begin(), lights.notes.end());
+  notes_.insert(notes_.end(), lights_.notes.begin(), lights_.notes.end());
 
-  uploadGrids(device);
-  uploadLights(device, lights);
+  uploadLights(device);
   media_ = gpu::Buffer<interop::Medium>(device, view(packed_.media));
   emissive_ = gpu::Buffer<std::uint32_t>(device, view(packed_.emissive));
 
@@ -58,9 +60,9 @@ GpuScene::GpuScene(const gpu::Device& device, const scene::Scene& scene, const V
   header.homogeneousCount = packed_.homogeneousCount;
   header.mediumCount = static_cast<std::uint32_t>(packed_.media.size());
   header.emissiveCount = static_cast<std::uint32_t>(packed_.emissive.size());
-  header.pointCount = static_cast<std::uint32_t>(lights.points.size());
-  header.distantCount = static_cast<std::uint32_t>(lights.distant.size());
-  header.pointShare = lights.pointShare;
+  header.pointCount = static_cast<std::uint32_t>(lights_.points.size());
+  header.distantCount = static_cast<std::uint32_t>(lights_.distant.size());
+  header.pointShare = lights_.pointShare;
   header.media = media_.ptr();
   header.grids = grids_.ptr();
   header.emissive = emissive_.ptr();
@@ -88,9 +90,9 @@ void GpuScene::uploadGrids(const gpu::Device& device) {
   grids_ = gpu::Buffer<interop::Grid>(device, view(headers));
 }
 
-void GpuScene::uploadLights(const gpu::Device& device, PackedLights& lights) {
-  auto table = lights.tables.begin();
-  for (interop::DistantLight& light : lights.distant) {
+void GpuScene::uploadLights(const gpu::Device& device) {
+  auto table = lights_.tables.begin();
+  for (interop::DistantLight& light : lights_.distant) {
     if (light.kind == interop::kDistantMap) {
       vectors_.emplace_back(device, view(table->texels));
       light.map.texels = vectors_.back().ptr();
@@ -99,8 +101,8 @@ void GpuScene::uploadLights(const gpu::Device& device, PackedLights& lights) {
       ++table;
     }
   }
-  points_ = gpu::Buffer<interop::PointLight>(device, view(lights.points));
-  distant_ = gpu::Buffer<interop::DistantLight>(device, view(lights.distant));
+  points_ = gpu::Buffer<interop::PointLight>(device, view(lights_.points));
+  distant_ = gpu::Buffer<interop::DistantLight>(device, view(lights_.distant));
 }
 
 } // namespace tyndall::gpu_scene

@@ -3,6 +3,7 @@
 
 #include "gpu/buffer.h"
 #include "gpu_scene/atlas.h"
+#include "gpu_scene/cell_grids.h"
 #include "gpu_scene/lights.h"
 #include "gpu_scene/media.h"
 #include "gpu_scene/volumes.h"
@@ -28,28 +29,46 @@ struct Features {
   bool overlapOfGrids = false; ///< more than one medium with a density grid: delta tracking, see tracker/walk.glsl
 };
 
+/// How grids lie in device memory.
+enum class GridLayout {
+  Atlas, ///< as loaded, in 3D images: for null-collision tracking
+  Cells  ///< as blocks of floats (interop/cells.h): for walks from cell to cell
+};
+
 /// A scene in device memory. Owns everything; kernels borrow addresses.
 class GpuScene {
 public:
   /// @throws Error if memory or image limits do not suffice.
-  GpuScene(const gpu::Device& device, const scene::Scene& scene, const VolumeSet& volumes);
+  GpuScene(const gpu::Device& device, const scene::Scene& scene, const VolumeSet& volumes,
+           GridLayout layout = GridLayout::Atlas);
 
   interop::Ptr<interop::Scene> ptr() const { return scene_.ptr(); }
   gpu::AtlasImages images() const { return atlas_.images(); }
+  GridLayout layout() const { return layout_; }
+  const CellGrids& cells() const { return cellGrids_; }
+  const PackedMedia& media() const { return packed_; }
+  const std::vector<interop::PointLight>& pointLights() const { return lights_.points; }
+  const std::vector<interop::DistantLight>& distantLights() const { return lights_.distant; }
   const Features& features() const { return features_; }
   /// Homogeneous media and lights: what a stage of the trace pass loops over.
   std::uint32_t loopCount() const { return loopCount_; }
   const std::vector<std::string>& notes() const { return notes_; }
+  /// Of everything bounded, in world space.
+  const Bounds3& bounds() const { return bounds_; }
   /// World-space point that device coordinates are relative to.
   const glm::dvec3& centre() const { return centre_; }
 
 private:
   void uploadGrids(const gpu::Device& device);
-  void uploadLights(const gpu::Device& device, PackedLights& lights);
+  void uploadLights(const gpu::Device& device);
 
+  GridLayout layout_;
+  Bounds3 bounds_;
   glm::dvec3 centre_{0.0};
   PackedMedia packed_;
+  PackedLights lights_;
   Atlas atlas_;
+  CellGrids cellGrids_;
   Features features_;
   std::uint32_t loopCount_ = 0;
   std::vector<std::string> notes_;

@@ -60,19 +60,19 @@ private:
     double equiangular = 0.0;
     double distant = 0.0;
     for (const interop::PointLight& light : out_.points) {
-      points += light.selectPdf;
-      equiangular += light.equiangularPdf;
+      points += double(light.selectPdf);
+      equiangular += double(light.equiangularPdf);
     }
     for (const interop::DistantLight& light : out_.distant) {
-      distant += light.selectPdf;
+      distant += double(light.selectPdf);
     }
     const double all = points + distant;
     for (interop::PointLight& light : out_.points) {
-      light.selectPdf = static_cast<float>(light.selectPdf / all);
-      light.equiangularPdf = static_cast<float>(light.equiangularPdf / equiangular);
+      light.selectPdf = static_cast<float>(double(light.selectPdf) / all);
+      light.equiangularPdf = static_cast<float>(double(light.equiangularPdf) / equiangular);
     }
     for (interop::DistantLight& light : out_.distant) {
-      light.selectPdf = static_cast<float>(light.selectPdf / all);
+      light.selectPdf = static_cast<float>(double(light.selectPdf) / all);
     }
     out_.pointShare = out_.distant.empty() ? 1.0f : static_cast<float>(points / all);
   }
@@ -174,6 +174,10 @@ PackedLights packLights(const scene::Scene& scene, const Bounds3& bounds, const 
     packer.add(named);
   }
   packer.assignProbabilities();
+  // The strongest first: some estimators take those always, and draw one of the others.
+  std::stable_sort(out.points.begin(), out.points.end(), [](const interop::PointLight& a, const interop::PointLight& b) {
+    return a.selectPdf > b.selectPdf;
+  });
   return out;
 }
 

@@ -35,14 +35,15 @@ class Session {
 public:
   Session(const gpu::Device& device, const scene::Scene& scene, const gpu_scene::VolumeSet& volumes,
           const gpu_scene::GpuScene& gpuScene, const RenderOptions& options, RenderReport& report)
-      : scene_(scene), options_(options), report_(report), tracer_(device, gpuScene, options.tracer),
+      : scene_(scene), options_(options), report_(report), estimator_(makeEstimator(device, gpuScene, volumes, options.estimator)),
         device_(device.info().name), film_(startFilm(device)), coverage_(mediaCoverage(scene, volumes)),
         order_(dispatchOrder(film_.window())) {
     report_.mediaPixels = static_cast<std::size_t>(
         std::count_if(order_.begin(), order_.end(), [&](std::uint32_t pixel) { return covered(pixel); }));
     report_.backgroundPixels = order_.size() - report_.mediaPixels;
-    report_.spec = tracer_.spec();
-    report_.kernelBytes = tracer_.kernelBytes();
+    report_.pipeline = estimator_->pipeline();
+    report_.kernelBytes = estimator_->kernelBytes();
+    report_.caches = estimator_->caches();
     for (const auto& [key, text] : film_.metadata) {
       if (key.starts_with(film::kCountPrefix)) {
         countsBefore_[key] = std::stoull(text);
@@ -75,7 +76,7 @@ public:
       saveCheckpoint();
     }
     noteCounts();
-    report_.totals = tracer_.totals();
+    report_.totals = estimator_->totals();
     report_.seconds = secondsSince(start_);
     return std::move(film_);
   }
@@ -160,10 +161,10 @@ private:
   }
 
   void runPixels(const std::vector<std::uint32_t>& pixels, std::uint32_t batch, SampleRange samples) {
-    for (std::size_t first = 0; first < pixels.size() && report_.stoppedBy.empty(); first += tracer_.chunkPixels()) {
-      const std::size_t count = std::min<std::size_t>(tracer_.chunkPixels(), pixels.size() - first);
+    for (std::size_t first = 0; first < pixels.size() && report_.stoppedBy.empty(); first += estimator_->chunkPixels()) {
+      const std::size_t count = std::min<std::size_t>(estimator_->chunkPixels(), pixels.size() - first);
       const std::span<const std::uint32_t> chunk(pixels.data() + first, count);
-      const std::span<const interop::PixelSums> sums = tracer_.run(chunk, samples, options_.seed);
+      const std::span<const interop::PixelSums> sums = estimator_->run(chunk, samples, options_.seed);
       if (report_.firstDispatchSeconds == 0.0) {
         report_.firstDispatchSeconds = secondsSince(start_);
       }
@@ -200,11 +201,11 @@ private:
     if (options_.stop.seconds) {
       progress.fraction = std::clamp(seconds / *options_.stop.seconds, progress.fraction, 1.0);
     }
-    progress.samples = tracer_.totals().samples;
+    progress.samples = estimator_->totals().samples;
     progress.samplesPerPixel = std::min<double>(options_.stop.samples, (batch + done) * kBatchSamples);
     progress.seconds = seconds;
     progress.error = error_;
-    progress.nonFinite = tracer_.totals().nonFinite;
+    progress.nonFinite = estimator_->totals().nonFinite;
     if (options_.progress) {
       options_.progress(progress);
     }
@@ -220,10 +221,10 @@ private:
 
   /// Rare events add up over all runs that went into the film.
   void noteCounts() {
-    const TraceTotals& totals = tracer_.totals();
+    const Totals& totals = estimator_->totals();
     const std::map<std::string, std::uint64_t> now{
         {"count.nonFinite", totals.nonFinite}, {"count.majorantExceeded", totals.majorantExceeded},
-        {"count.negative", totals.negative},   {"count.lookups", totals.lookups},
+        {"count.negative", totals.negative},   {"count.cut", totals.cut},   {"count.lookups", totals.lookups},
         {"count.segments", totals.segments},   {"count.samples", totals.samples}};
     for (const auto& [key, count] : now) {
       film_.metadata[key] = std::to_string(countsBefore_[key] + count);
@@ -250,7 +251,7 @@ private:
   const RenderOptions& options_;
   RenderReport& report_;
   Clock::time_point start_ = Clock::now();
-  Tracer tracer_;
+  std::unique_ptr<Estimator> estimator_;
   std::string device_;
   Film film_;
   std::vector<bool> coverage_;

@@ -4,7 +4,7 @@
 #include "film/film.h"
 #include "gpu_scene/gpu_scene.h"
 #include "render/schedule.h"
-#include "render/tracer.h"
+#include "render/estimator.h"
 #include "scene/scene.h"
 
 #include <atomic>
@@ -29,7 +29,7 @@ struct RenderOptions {
   film::Window crop; ///< empty: the whole image
   StopRule stop;
   std::uint32_t seed = 0;
-  TracerOptions tracer;
+  EstimatorOptions estimator;
   std::filesystem::path checkpoint; ///< empty: none are written; the last one when interrupted or resuming
   double checkpointSeconds = 20.0;
   bool resume = false;   ///< go on from `checkpoint` if it is there
@@ -39,8 +39,9 @@ struct RenderOptions {
 };
 
 struct RenderReport {
-  TraceTotals totals;
-  passes::TraceSpec spec; ///< what was left out of the pipeline
+  Totals totals;
+  std::map<std::string, std::string> pipeline; ///< what was left out of it
+  CacheReport caches;
   std::size_t kernelBytes = 0;
   std::size_t mediaPixels = 0;       ///< pixels that may see a medium
   std::size_t backgroundPixels = 0;  ///< finished by the first passes

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "film/film.h"
-#include "render/tracer.h"
 
 #include <array>
 #include <cstdint>

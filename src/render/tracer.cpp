@@ -8,22 +8,11 @@
 namespace tyndall::render {
 namespace {
 
-/// A CPU device answers to Ctrl-C between dispatches; a GPU needs this many invocations to be full.
-constexpr std::uint32_t kChunkOnCpu = 16384;
-constexpr std::uint32_t kChunkOnGpu = 262144;
-
 /// Well below what old Mesa cuts (65535 iterations), and on a GPU below what its watchdog allows.
 constexpr std::uint32_t kStepsOnCpu = 16384;
 constexpr std::uint32_t kStepsOnGpu = 2048;
 
-std::uint32_t chunkFor(const gpu::Device& device, const TracerOptions& options) {
-  if (options.chunkPixels > 0) {
-    return options.chunkPixels;
-  }
-  return device.info().type == "cpu" ? kChunkOnCpu : kChunkOnGpu;
-}
-
-std::uint32_t stepBoundFor(const gpu::Device& device, const TracerOptions& options) {
+std::uint32_t stepBoundFor(const gpu::Device& device, const EstimatorOptions& options) {
   if (options.stepBound > 0) {
     return options.stepBound;
   }
@@ -32,7 +21,7 @@ std::uint32_t stepBoundFor(const gpu::Device& device, const TracerOptions& optio
 
 } // namespace
 
-passes::TraceSpec traceSpecFor(const gpu_scene::Features& features, const TracerOptions& options) {
+passes::TraceSpec traceSpecFor(const gpu_scene::Features& features, const EstimatorOptions& options) {
   passes::TraceSpec spec;
   spec.kPhaseMask = features.phaseMask;
   spec.kFormatMask = features.formatMask;
@@ -50,7 +39,7 @@ passes::TraceSpec traceSpecFor(const gpu_scene::Features& features, const Tracer
   return spec;
 }
 
-Tracer::Tracer(const gpu::Device& device, const gpu_scene::GpuScene& scene, const TracerOptions& options)
+Tracer::Tracer(const gpu::Device& device, const gpu_scene::GpuScene& scene, const EstimatorOptions& options)
     : scene_(scene), stepBound_(stepBoundFor(device, options)), spec_(traceSpecFor(scene.features(), options)),
       pass_(device, spec_, scene.images()), pixels_(device, chunkFor(device, options), gpu::Memory::Host),
       sums_(device, pixels_.size(), gpu::Memory::Host), counters_(device, 1, gpu::Memory::Host) {
@@ -59,9 +48,12 @@ Tracer::Tracer(const gpu::Device& device, const gpu_scene::GpuScene& scene, cons
   }
 }
 
-double Tracer::plannedBytes(const gpu::Device& device, const TracerOptions& options) {
-  return double(chunkFor(device, options)) *
-         (sizeof(std::uint32_t) + sizeof(interop::PixelSums) + 2.0 * sizeof(interop::TraceState));
+std::map<std::string, std::string> Tracer::pipeline() const {
+  std::map<std::string, std::string> result;
+#define SPEC(type, name, id, value) result.insert(specText(#name, spec_.name));
+  TYNDALL_TRACE_SPEC(SPEC)
+#undef SPEC
+  return result;
 }
 
 void Tracer::collect(const interop::TraceCounters& counters) {

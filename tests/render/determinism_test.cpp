@@ -42,7 +42,7 @@ render::RenderOptions options(std::uint32_t samples = 40) {
   render::RenderOptions result;
   result.stop.samples = samples;
   result.seed = 7;
-  result.tracer.aovs = true;
+  result.estimator.aovs = true;
   result.sceneHash = "hash";
   return result;
 }
@@ -80,7 +80,7 @@ std::uint64_t referenceHash() {
 TEST(Determinism, DispatchSizeHasNoSay) {
   for (const std::uint32_t chunk : {64u, 1000u, 16384u}) {
     render::RenderOptions chunked = options();
-    chunked.tracer.chunkPixels = chunk;
+    chunked.estimator.chunkPixels = chunk;
     EXPECT_EQ(hashOf(renderFilm(everything(), chunked)), referenceHash()) << chunk;
   }
   render::RenderOptions other = options();
@@ -91,7 +91,7 @@ TEST(Determinism, DispatchSizeHasNoSay) {
 TEST(Determinism, StepBoundHasNoSay) {
   for (const std::uint32_t bound : {8u, 100u, 1u << 20}) {
     render::RenderOptions bounded = options();
-    bounded.tracer.stepBound = bound;
+    bounded.estimator.stepBound = bound;
     render::RenderReport report;
     EXPECT_EQ(hashOf(renderFilm(everything(), bounded, &report)), referenceHash()) << bound;
     if (bound < 1000) {
@@ -116,7 +116,7 @@ TEST(Determinism, ResumedIsUninterrupted) {
   std::filesystem::remove(file);
   std::atomic<bool> stop = false;
   render::RenderOptions first = options();
-  first.tracer.chunkPixels = 100; // interrupted in the middle of a batch
+  first.estimator.chunkPixels = 100; // interrupted in the middle of a batch
   first.checkpoint = file;
   first.interrupted = &stop;
   int chunks = 0;

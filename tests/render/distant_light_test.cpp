@@ -28,7 +28,7 @@ TestScene sphereView(double g) {
 
 Moments render(const TestScene& test, std::uint32_t bug = interop::kBugNone, std::uint32_t replicates = 128) {
   MomentOptions options{.replicates = replicates, .samples = 32};
-  options.tracer.plantedBug = bug;
+  options.estimator.plantedBug = bug;
   return renderMoments(test.scene, test.volumes, options);
 }
 
@@ -63,7 +63,7 @@ TEST(ConstantEnvironment, GridAgreesWithQuadrature) {
   const auto reference = oracle.picture([&](const OracleRay& ray) { return oracle.total(ray); }, 1);
   for (const bool delta : {false, true}) {
     MomentOptions options{.replicates = 64};
-    options.tracer.deltaTracking = delta;
+    options.estimator.deltaTracking = delta;
     EXPECT_AGREES(imageTest(renderMoments(test.scene, test.volumes, options), meanOf(reference), 0, 2e-3)) << delta;
   }
 }

@@ -69,12 +69,12 @@ TEST(EmissiveGrid, AgreesWithQuadrature) {
     const auto reference = oracle.picture([&](const OracleRay& ray) { return oracle.radiance(ray); }, 3);
     for (const bool delta : {false, true}) {
       MomentOptions options{.replicates = 128, .samples = 32};
-      options.tracer.deltaTracking = delta;
+      options.estimator.deltaTracking = delta;
       const Moments moments = renderMoments(test.scene, test.volumes, options);
       EXPECT_AGREES(imageTest(moments, meanOf(reference), 0, 1e-4)) << "tied " << tied << " delta " << delta;
       EXPECT_AGREES(pixelTest(moments, reference, 0, 1e-4)) << "tied " << tied << " delta " << delta;
       MomentOptions bad = options;
-      bad.tracer.plantedBug = interop::kBugHalfVoxel; // shifts the density against the emission
+      bad.estimator.plantedBug = interop::kBugHalfVoxel; // shifts the density against the emission
       EXPECT_DIFFERS(imageTest(renderMoments(test.scene, test.volumes, bad), meanOf(reference), 0, 1e-4));
     }
   }
@@ -131,7 +131,7 @@ TEST(TemperatureRamp, IsInterpolatedBeforePlanck) {
   const auto reference = oracle.picture([&](const OracleRay& ray) { return oracle.radiance(ray); }, 2);
   EXPECT_AGREES(imageTest(renderMoments(test.scene, test.volumes, {.replicates = 64}), meanOf(reference), 0, 1e-3));
   MomentOptions bad{.replicates = 64};
-  bad.tracer.plantedBug = interop::kBugOneTapBlackbody;
+  bad.estimator.plantedBug = interop::kBugOneTapBlackbody;
   EXPECT_DIFFERS(imageTest(renderMoments(test.scene, test.volumes, bad), meanOf(reference), 0, 1e-3));
 }
 

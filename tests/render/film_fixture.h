@@ -10,7 +10,7 @@ namespace tyndall::test {
 
 /// The film that the program would make of a scene, coverage mask and stopping included.
 inline film::Film renderFilm(const TestScene& test, const render::RenderOptions& options, render::RenderReport* report = nullptr) {
-  const gpu_scene::GpuScene gpuScene(probeDevice(), test.scene, test.volumes);
+  const gpu_scene::GpuScene gpuScene(probeDevice(), test.scene, test.volumes, render::layoutOf(options.estimator.method));
   render::RenderReport own;
   return render::renderFilm(probeDevice(), test.scene, test.volumes, gpuScene, options, report != nullptr ? *report : own);
 }
@@ -18,8 +18,10 @@ inline film::Film renderFilm(const TestScene& test, const render::RenderOptions&
 /// Films of one scene for many seeds with one pipeline: the renderer's loop over batches without mask and progress.
 class FilmRunner {
 public:
-  explicit FilmRunner(const TestScene& test)
-      : size_(test.scene.film.size), gpuScene_(probeDevice(), test.scene, test.volumes), tracer_(probeDevice(), gpuScene_, {}),
+  explicit FilmRunner(const TestScene& test, const render::EstimatorOptions& options = {})
+      : size_(test.scene.film.size),
+        gpuScene_(probeDevice(), test.scene, test.volumes, render::layoutOf(options.method)),
+        estimator_(render::makeEstimator(probeDevice(), gpuScene_, test.volumes, options)),
         pixels_(render::dispatchOrder({glm::uvec2(0), size_})) {}
 
   film::Film run(const render::StopRule& rule, std::uint32_t seed, std::string& stoppedBy) {
@@ -28,7 +30,7 @@ public:
     render::Schedule schedule(rule, film);
     while (const std::optional<std::uint32_t> batch = schedule.next(film)) {
       const std::uint32_t count = schedule.batchSamples(*batch);
-      const auto sums = tracer_.run(pixels_, {*batch * film::kBatchSamples, count}, seed);
+      const auto sums = estimator_->run(pixels_, {*batch * film::kBatchSamples, count}, seed);
       for (std::size_t i = 0; i < pixels_.size(); ++i) {
         film::BatchSums values;
         std::copy(std::begin(sums[i].moments), std::end(sums[i].moments), values.moments.begin());
@@ -42,7 +44,7 @@ public:
 private:
   glm::uvec2 size_;
   gpu_scene::GpuScene gpuScene_;
-  render::Tracer tracer_;
+  std::unique_ptr<render::Estimator> estimator_;
   std::vector<std::uint32_t> pixels_;
 };
 

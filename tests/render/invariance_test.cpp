@@ -188,7 +188,7 @@ TEST(Trackers, AgreeOnTheProjectsVolumes) {
     test.grid(grid, 8.0 / size, 0.95).phase = henyeyGreenstein(0.5);
     MomentOptions weighted{.replicates = 16};
     MomentOptions delta{.replicates = 32, .firstSeed = 100001};
-    delta.tracer.deltaTracking = true;
+    delta.estimator.deltaTracking = true;
     const Moments reference = renderMoments(test.scene, test.volumes, weighted);
     EXPECT_AGREES(tileTest(reference, renderMoments(test.scene, test.volumes, delta))) << name;
     TestScene dense = test;

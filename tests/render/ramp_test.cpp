@@ -125,7 +125,7 @@ TEST(LinearRamp, TransmittancePictureUnderEveryMap) {
     const auto reference = oracle.transmittancePicture(8);
     EXPECT_AGREES(imageTest(renderMoments(test.scene, test.volumes, {.replicates = 64}), meanOf(reference), kTransmittance, 1e-4)) << map.name;
     MomentOptions bad{.replicates = 64};
-    bad.tracer.plantedBug = interop::kBugHalfVoxel;
+    bad.estimator.plantedBug = interop::kBugHalfVoxel;
     // The picture's mean sees half a voxel; its pixels do even where the mean does not change.
     EXPECT_DIFFERS(pixelTest(renderMoments(test.scene, test.volumes, bad), reference, kTransmittance, 1e-3)) << map.name;
   }

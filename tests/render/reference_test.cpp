@@ -38,7 +38,7 @@ TestScene airlight(const AirlightRow& row, double verticalFov = 1e-6) {
 
 Verdict airlightVerdict(const AirlightRow& row, std::uint32_t bug) {
   MomentOptions options;
-  options.tracer.plantedBug = bug;
+  options.estimator.plantedBug = bug;
   const TestScene test = airlight(row);
   return imageTest(renderMoments(test.scene, test.volumes, options), row.radiance, 0, 2e-5);
 }
@@ -81,7 +81,7 @@ TEST(Airlight, PictureAgreesWithQuadratureOverEveryFootprint) {
   EXPECT_AGREES(pixelTest(moments, reference, 0, 1e-4)); // 1e-4: of the footprint's quadrature near the light
   EXPECT_AGREES(imageTest(moments, meanOf(reference), 0, 2e-5));
   MomentOptions bad;
-  bad.tracer.plantedBug = interop::kBugPhaseSign;
+  bad.estimator.plantedBug = interop::kBugPhaseSign;
   EXPECT_DIFFERS(imageTest(renderMoments(test.scene, test.volumes, bad), meanOf(reference), 0, 2e-5));
 }
 
@@ -99,7 +99,7 @@ TEST(Airlight, GridOfConstantDensityWithBothTrackers) {
     for (const bool delta : {false, true}) {
       MomentOptions options;
       options.replicates = 64;
-      options.tracer.deltaTracking = delta;
+      options.estimator.deltaTracking = delta;
       EXPECT_AGREES(imageTest(renderMoments(test.scene, test.volumes, options), reference, 0, 2e-5)) << "\nrow " << index + 1 << " delta " << delta;
     }
   }
@@ -135,7 +135,7 @@ TEST(DirectionalLightOnABox, HomogeneousAgreesInEveryPixel) {
     EXPECT_AGREES(imageTest(moments, meanOf(reference))) << sigmaT;
     EXPECT_AGREES(imageTest(moments, std::exp(-2.0 * sigmaT), kTransmittance)) << sigmaT;
     MomentOptions bad;
-    bad.tracer.plantedBug = interop::kBugNoInverse4Pi;
+    bad.estimator.plantedBug = interop::kBugNoInverse4Pi;
     EXPECT_DIFFERS(pixelTest(renderMoments(test.scene, test.volumes, bad), reference)) << sigmaT;
   }
 }
@@ -154,7 +154,7 @@ TEST(DirectionalLightOnABox, GridAgreesInEveryPixelStorageAndTracker) {
     test.volumes.grids[0] = constantGrid(11, glm::dvec3(-0.9), glm::dvec3(0.9), 1.0, storage);
     for (const bool delta : {false, true}) {
       MomentOptions options;
-      options.tracer.deltaTracking = delta;
+      options.estimator.deltaTracking = delta;
       const Moments moments = renderMoments(test.scene, test.volumes, options);
       EXPECT_AGREES(pixelTest(moments, reference, 0, 3e-4)) << volume::storageName(storage) << delta;
       EXPECT_AGREES(imageTest(moments, meanOf(reference), 0, 1e-4)) << volume::storageName(storage) << delta;
@@ -162,7 +162,7 @@ TEST(DirectionalLightOnABox, GridAgreesInEveryPixelStorageAndTracker) {
     }
   }
   MomentOptions bad;
-  bad.tracer.plantedBug = interop::kBugHalfVoxel;
+  bad.estimator.plantedBug = interop::kBugHalfVoxel;
   EXPECT_DIFFERS(pixelTest(renderMoments(first.scene, first.volumes, bad), reference, 0, 3e-4));
 }
 
@@ -183,7 +183,7 @@ TEST(PhaseFunctions, EveryModelAgreesWithQuadratureInASlab) {
     EXPECT_AGREES(imageTest(renderMoments(test.scene, test.volumes, {.replicates = 128, .samples = 32}), meanOf(reference), 0, 1e-4)) << "\nphase " << static_cast<unsigned>(phase.id);
     if (phase.id != PhaseId::Isotropic && phase.id != PhaseId::Rayleigh) {
       MomentOptions bad{.replicates = 64};
-      bad.tracer.plantedBug = interop::kBugPhaseSign;
+      bad.estimator.plantedBug = interop::kBugPhaseSign;
       EXPECT_DIFFERS(imageTest(renderMoments(test.scene, test.volumes, bad), meanOf(reference), 0, 1e-4));
     }
   }

@@ -86,7 +86,7 @@ TEST(Survives, ScenesFarFromTheOrigin) {
 TEST(Survives, OpticalDepthZeroAndAMillion) {
   for (const bool delta : {false, true}) {
     MomentOptions options{.replicates = 8};
-    options.tracer.deltaTracking = delta;
+    options.estimator.deltaTracking = delta;
     for (const bool grid : {false, true}) {
       const TestScene none = cube(1.0, 0.0, grid);
       const Moments empty = renderMoments(none.scene, none.volumes, options);

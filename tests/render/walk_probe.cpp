@@ -39,7 +39,7 @@ SegmentEstimate summed(std::span<const interop::WalkResult> results, std::uint32
 
 } // namespace
 
-WalkProbe::WalkProbe(const TestScene& test, const render::TracerOptions& options)
+WalkProbe::WalkProbe(const TestScene& test, const render::EstimatorOptions& options)
     : scene_(std::make_unique<gpu_scene::GpuScene>(probeDevice(), test.scene, test.volumes)) {
   const passes::TraceSpec spec = render::traceSpecFor(scene_->features(), options);
   kernel_ = std::make_unique<gpu::Kernel>(probeDevice(), k_walk_probe_spirv, entriesOf(spec), scene_->images());

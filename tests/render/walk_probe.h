@@ -45,7 +45,7 @@ struct WalkCountsWanted {
 /// Walks segments through a scene's grid media with the shipped tracker.
 class WalkProbe {
 public:
-  WalkProbe(const TestScene& test, const render::TracerOptions& options = {});
+  WalkProbe(const TestScene& test, const render::EstimatorOptions& options = {});
   WalkReport run(const std::vector<ProbeSegment>& segments, const WalkCountsWanted& wanted) const;
 
 private:

@@ -36,14 +36,14 @@ std::vector<std::uint32_t> pixelsOf(const glm::uvec2& size, const std::vector<bo
 }
 
 /// Means of the pixels over the samples of one seed.
-std::vector<std::array<double, 4>> renderReplicate(render::Tracer& tracer, const std::vector<std::uint32_t>& pixels,
+std::vector<std::array<double, 4>> renderReplicate(render::Estimator& estimator, const std::vector<std::uint32_t>& pixels,
                                                    std::uint32_t samples, std::uint32_t seed) {
   std::vector<std::array<double, 4>> means(pixels.size(), std::array<double, 4>{});
   for (std::uint32_t first = 0; first < samples; first += film::kBatchSamples) {
     const std::uint32_t count = std::min(film::kBatchSamples, samples - first);
-    for (std::size_t begin = 0; begin < pixels.size(); begin += tracer.chunkPixels()) {
-      const std::size_t chunk = std::min<std::size_t>(tracer.chunkPixels(), pixels.size() - begin);
-      const auto sums = tracer.run(std::span(pixels).subspan(begin, chunk), {first, count}, seed);
+    for (std::size_t begin = 0; begin < pixels.size(); begin += estimator.chunkPixels()) {
+      const std::size_t chunk = std::min<std::size_t>(estimator.chunkPixels(), pixels.size() - begin);
+      const auto sums = estimator.run(std::span(pixels).subspan(begin, chunk), {first, count}, seed);
       for (std::size_t i = 0; i < chunk; ++i) {
         for (std::size_t channel = 0; channel < 4; ++channel) {
           const double background = channel < 3 ? double(sums[i].extras[channel]) : 0.0;
@@ -125,8 +125,9 @@ film::SampleSummary Moments::image(int channel) const {
 Moments renderMoments(const scene::Scene& scene, const gpu_scene::VolumeSet& volumes, const MomentOptions& options) {
   gpu_scene::VolumeSet set = volumes;
   set.uses.resize(scene.media.size());
-  const gpu_scene::GpuScene gpuScene(probeDevice(), scene, set);
-  render::Tracer tracer(probeDevice(), gpuScene, options.tracer);
+  const gpu_scene::GpuScene gpuScene(probeDevice(), scene, set, render::layoutOf(options.estimator.method));
+  const std::unique_ptr<render::Estimator> estimator =
+      render::makeEstimator(probeDevice(), gpuScene, set, options.estimator);
   const std::vector<std::uint32_t> pixels = pixelsOf(scene.film.size, options.skip);
   Moments result;
   result.size = scene.film.size;
@@ -134,7 +135,7 @@ Moments renderMoments(const scene::Scene& scene, const gpu_scene::VolumeSet& vol
   result.pixels.resize(std::size_t(scene.film.size.x) * scene.film.size.y);
   // Welford's running moments: the values of all replicates would not fit for big pictures.
   for (std::uint32_t replicate = 0; replicate < result.replicates; ++replicate) {
-    const auto means = renderReplicate(tracer, pixels, options.samples, options.firstSeed + replicate);
+    const auto means = renderReplicate(*estimator, pixels, options.samples, options.firstSeed + replicate);
     std::array<double, 4> image{};
     for (std::size_t i = 0; i < pixels.size(); ++i) {
       for (std::size_t channel = 0; channel < 4; ++channel) {
@@ -153,11 +154,12 @@ Moments renderMoments(const scene::Scene& scene, const gpu_scene::VolumeSet& vol
       summary.variance /= std::max(1.0, summary.count - 1.0);
     }
   }
-  result.totals = tracer.totals();
+  result.totals = estimator->totals();
   reportMessages();
-  if (options.tracer.plantedBug == interop::kBugNone) {
+  if (options.estimator.plantedBug == interop::kBugNone) {
     EXPECT_EQ(result.totals.nonFinite, 0u);
     EXPECT_EQ(result.totals.majorantExceeded, 0u);
+    EXPECT_EQ(result.totals.cut, 0u);
   }
   return result;
 }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "film/film.h"
 #include "film/statistics.h"
 #include "gpu_scene/volumes.h"
-#include "render/tracer.h"
+#include "render/estimator.h"
 #include "scene/scene.h"
 
 #include <array>
@@ -27,7 +28,7 @@ struct MomentOptions {
   std::uint32_t replicates = 32;    ///< independent seeds, times effort()
   std::uint32_t samples = 16;       ///< per pixel and replicate; a multiple of 16 if above it
   std::uint32_t firstSeed = 1;
-  render::TracerOptions tracer{};
+  render::EstimatorOptions estimator{};
   std::vector<bool> skip{};         ///< pixels (x fastest) that are not rendered and stay 0; empty: none
 };
 
@@ -38,7 +39,7 @@ struct Moments {
   std::uint32_t replicates = 0;
   std::vector<std::array<film::SampleSummary, 4>> pixels;
   std::vector<std::array<double, 4>> imageMeans;   ///< per replicate
-  render::TraceTotals totals;
+  render::Totals totals;
 
   double mean(std::size_t pixel, int channel = 0) const { return pixels[pixel][static_cast<std::size_t>(channel)].mean; }
   film::SampleSummary image(int channel = 0) const;

@@ -8,6 +8,8 @@
 #ifndef TYNDALL_TRACE_IO_H
 #define TYNDALL_TRACE_IO_H
 
+#include "interop/pixel_sums.h"
+#include "interop/planted_bugs.h"
 #include "interop/scene.h"
 
 // SPEC(type, name, id, default). A false flag removes the feature's code from the pipeline.
@@ -30,23 +32,6 @@
 // clang-format on
 
 GPU_BEGIN
-
-// Known bugs that tests plant, to see their checkers fail.
-GPU_CONST uint kBugNone = 0;
-GPU_CONST uint kBugHalfVoxel = 1;       // lookups shifted by half a voxel
-GPU_CONST uint kBugPhaseSign = 2;       // g with the wrong sign
-GPU_CONST uint kBugNoInverse4Pi = 3;    // phase function not normalised
-GPU_CONST uint kBugBranchPdf = 4;       // MIS weight from the chosen technique's pdf alone
-GPU_CONST uint kBugPlainLog = 5;        // -log(1 - xi)
-GPU_CONST uint kBugOneTapBlackbody = 7; // Planck of a stochastic lookup
-GPU_CONST uint kBugJacobian = 8;        // point light without 1 / r^2
-
-// Sums over the samples of one batch, in film/film.h's channel order.
-struct PixelSums {
-  float moments[4]; // R, G, B, T
-  float extras[8];  // background R, G, B; depth * opacity; opacity; albedo * opacity R, G, B
-};
-GPU_BUFFER(PixelSums)
 
 // What happened, added up over a dispatch.
 struct TraceCounters {

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Known bugs that tests plant, to see their checkers fail.
+#ifndef TYNDALL_INTEROP_PLANTED_BUGS_H
+#define TYNDALL_INTEROP_PLANTED_BUGS_H
+
+#include "interop/interop.h"
+
+GPU_BEGIN
+
+GPU_CONST uint kBugNone = 0;
+GPU_CONST uint kBugHalfVoxel = 1;       // lookups shifted by half a voxel
+GPU_CONST uint kBugPhaseSign = 2;       // g with the wrong sign
+GPU_CONST uint kBugNoInverse4Pi = 3;    // phase function not normalised
+GPU_CONST uint kBugBranchPdf = 4;       // MIS weight from the chosen technique's pdf alone
+GPU_CONST uint kBugPlainLog = 5;        // -log(1 - xi)
+GPU_CONST uint kBugOneTapBlackbody = 7; // Planck of a stochastic lookup
+GPU_CONST uint kBugJacobian = 8;        // point light without 1 / r^2
+GPU_CONST uint kBugNoCorrection = 9;    // the light cache taken for the truth
+GPU_CONST uint kBugOtherCache = 10;     // the correction subtracts another cache value than the march added
+
+GPU_END
+#endif

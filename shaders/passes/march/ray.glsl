@@ -1,0 +1,412 @@
+// SPDX-License-Identifier: Apache-2.0
+// Single scattering along one camera ray without drawing distances: (10) to (13) of docs/theory.md.
+//
+// The ray is walked piece by piece. A piece is a stretch in which every medium is one polynomial: a cell of the grids
+// that meet there (cut where several overlap), or a stretch of homogeneous media alone that is short in optical depth and seen
+// under a small angle from the point lights. Transmittance along the ray is in closed form. Each piece takes one
+// position per beam, all at the same offset u of the piece, and reads the beam's light cache there. One position of the
+// whole ray is kept by reservoir, and its exact walk to the light corrects what the caches got wrong.
+#ifndef TYNDALL_MARCH_RAY_GLSL
+#define TYNDALL_MARCH_RAY_GLSL
+
+#include "light/cache.glsl"
+#include "medium/emission.glsl"
+#include "passes/march/beams.glsl"
+#include "tracker/cells.glsl"
+
+// Pieces are cut where their optical depth exceeds this, so that one position serves.
+const float kPieceDepth = 1.0;
+const float kHomogeneousPieceDepth = 0.5;
+// Largest angle [rad] that a piece of homogeneous media takes up as seen from a point light.
+const float kPieceAngle = 0.1;
+// Largest length of such a piece where grids cast shadows: a share of the scene's radius, or of the distance to it.
+const float kPieceLength = 0.125;
+// Added to the cache's transmittance where a position is kept: it may be 0 where the truth is not.
+const float kKeepFloor = 0.02;
+const float kKeepFloorSector = 0.2; // the cached direction is not the beam's
+// Russian roulette on the camera ray's transmittance: below this and each 64th of it, one in 4 goes on.
+const float kFirstRoulette = 1.0 / 1024.0;
+const float kOpaque = 1e-12;        // transmittance that counts as 0
+const float kOpaqueDepth = 32.0;    // towards lights
+
+struct MarchResult {
+  vec3 scattered;      // and emitted
+  float transmittance;
+  float depth;         // weighted by opacity
+  float opacity;
+  vec3 albedo;         // weighted by opacity
+  uint cells;
+  uint steps;
+  uint corrections;
+  bool cut;
+};
+
+// The position that the correction is taken at.
+struct Kept {
+  float weightSum;
+  float weight;
+  float t;
+  uint beam;
+  float cached;        // transmittance of the grids that the march took for true
+  vec3 contribution;   // of the position for a transmittance of 1
+};
+
+struct Piece {
+  float t0;
+  float t1;
+  bool grids;          // some slot is not empty
+  bool media;          // anything is there
+};
+
+const uint kHomogeneousArray = kHomogeneousMedia > 0u ? kHomogeneousMedia : 1u;
+
+// Of the ray that is being marched.
+CellWalk slotWalks[kSlotArray];
+CellStep slotLooks[kSlotArray];
+bool slotInside[kSlotArray]; // not left yet
+vec4 slotCubics[kSlotArray];
+vec2 homogeneousStretch[kHomogeneousArray];
+vec3 rayOrigin;              // near the grids: distances are counted from there
+vec3 rayDirection;
+
+bool slotActive(uint s, float t) { return slotInside[s] && slotWalks[s].tEnter <= t; }
+bool slotFilled(uint s, Piece piece) { return slotActive(s, piece.t0) && slotLooks[s].block != kEmptyBrick; }
+bool homogeneousActive(uint h, Piece piece) {
+  return homogeneousStretch[h].x <= piece.t0 && piece.t1 <= homogeneousStretch[h].y;
+}
+
+// Begins all walks. Returns where on the ray media may be, empty if nowhere.
+vec2 beginRay(vec3 origin, vec3 direction) {
+  float base = kInfiniteDistance;
+  [[unroll]] for (uint s = 0u; s < kSlots; ++s) {
+    const vec2 interval = boxInterval(slotGrids[s].voxelFromWorld * vec4(origin, 1.0), mat3(slotGrids[s].voxelFromWorld) * direction,
+                                      slotGrids[s].boundsMin, slotGrids[s].boundsMax, kInfiniteDistance);
+    base = interval.x < interval.y ? min(base, interval.x) : base;
+  }
+  base = base == kInfiniteDistance ? 0.0 : base;
+  rayOrigin = origin + base * direction;
+  rayDirection = direction;
+  vec2 stretch = vec2(kInfiniteDistance, -kInfiniteDistance);
+  [[unroll]] for (uint s = 0u; s < kSlots; ++s) {
+    const float shift = kPlantedBug == kBugHalfVoxel ? 0.5 : 0.0;
+    slotWalks[s] = cellWalkBegin(slotGrids[s], slotGrids[s].voxelFromWorld * vec4(rayOrigin, 1.0) + shift,
+                                 mat3(slotGrids[s].voxelFromWorld) * direction, 0.0, kInfiniteDistance);
+    slotInside[s] = slotWalks[s].tEnter < slotWalks[s].tLeave;
+    if (slotInside[s]) {
+      stretch = vec2(min(stretch.x, slotWalks[s].tEnter), max(stretch.y, slotWalks[s].tLeave));
+    }
+  }
+  [[unroll]] for (uint h = 0u; h < kHomogeneousMedia; ++h) {
+    const vec2 interval = mediumInterval(media[h], origin, direction, kInfiniteDistance);
+    const bool there = interval.x < interval.y && (media[h].sigmaT > 0.0 || media[h].emissionKind != kEmissionNone);
+    const float end = interval.y >= kInfiniteDistance ? kInfiniteDistance : interval.y - base;
+    homogeneousStretch[h] = there ? vec2(interval.x - base, end) : vec2(kInfiniteDistance, -kInfiniteDistance);
+    stretch = vec2(min(stretch.x, homogeneousStretch[h].x), max(stretch.y, homogeneousStretch[h].y));
+  }
+  return stretch;
+}
+
+// The end of the nearest stretch after t that a boundary cuts.
+float nextBoundary(vec2 stretch, float t) {
+  return stretch.x > t ? stretch.x : (stretch.y > t ? stretch.y : kInfiniteDistance);
+}
+
+// The longest piece of homogeneous media from t on. `extent` is the scene's centre and radius.
+float homogeneousPiece(vec4 extent, float t, float sigmaT) {
+  float length = sigmaT > 0.0 ? kHomogeneousPieceDepth / sigmaT : kInfiniteDistance;
+  if (kSlots > 0u) {
+    const vec3 fromCentre = rayOrigin + t * rayDirection - extent.xyz;
+    length = min(length, kPieceLength * max(extent.w, sqrt(dot(fromCentre, fromCentre))));
+  }
+  if (kPointLights) {
+    [[unroll]] for (uint b = 0u; b < kBeams; ++b) {
+      if (beams[b].point) {
+        // From the angle a at t to a + kPieceAngle, by the tangent of their sum.
+        const vec3 toLight = beams[b].place - rayOrigin;
+        const float delta = dot(toLight, rayDirection);
+        const vec3 across = toLight - delta * rayDirection;
+        const float a = t - delta;
+        const float D2 = dot(across, across);
+        const float D = max(sqrt(D2), 1e-5 * abs(a));
+        const float denominator = D - a * kPieceAngle;
+        if (denominator > 0.0) {
+          length = min(length, max(kPieceAngle * (D * D + a * a) / denominator, 1e-6 * abs(a)));
+        }
+      }
+    }
+  }
+  return length;
+}
+
+// The next piece from t on; no media: a gap to be stepped over.
+Piece nextPiece(vec4 extent, float t) {
+  Piece piece = Piece(t, kInfiniteDistance, false, false);
+  [[unroll]] for (uint s = 0u; s < kSlots; ++s) {
+    if (slotActive(s, t)) {
+        slotLooks[s] = cellLook(slotWalks[s], slotGrids[s]);
+      slotLooks[s].tExit = max(slotLooks[s].tExit, t);
+      piece.t1 = min(piece.t1, slotLooks[s].tExit);
+      piece.grids = piece.grids || slotLooks[s].block != kEmptyBrick;
+    } else if (slotInside[s]) {
+      piece.t1 = min(piece.t1, slotWalks[s].tEnter);
+    }
+  }
+  float sigmaT = 0.0;
+  [[unroll]] for (uint h = 0u; h < kHomogeneousMedia; ++h) {
+    piece.t1 = min(piece.t1, nextBoundary(homogeneousStretch[h], t));
+    if (homogeneousStretch[h].x <= t && t < homogeneousStretch[h].y) {
+      piece.media = true;
+      sigmaT += media[h].sigmaT;
+    }
+  }
+  if (kHomogeneousMedia > 0u) {
+    if (piece.media && !piece.grids) {
+      piece.t1 = max(min(piece.t1, t + homogeneousPiece(extent, t, sigmaT)), t);
+    }
+  }
+  piece.media = piece.media || piece.grids;
+  return piece;
+}
+
+// Steps all walks that end where the piece does.
+void leavePiece(Piece piece) {
+  [[unroll]] for (uint s = 0u; s < kSlots; ++s) {
+    if (slotActive(s, piece.t0) && slotLooks[s].tExit <= piece.t1) {
+        slotInside[s] = cellStep(slotWalks[s], slotGrids[s], slotLooks[s]);
+    }
+  }
+}
+
+// Extinction of all media over the piece, as a polynomial over [0, 1]. Reads the cells.
+vec4 pieceExtinction(Piece piece, inout MarchResult result) {
+  vec4 sum = vec4(0.0);
+  [[unroll]] for (uint s = 0u; s < kSlots; ++s) {
+    slotCubics[s] = vec4(0.0);
+    if (slotFilled(s, piece)) {
+        slotCubics[s] = cellCubic(slotWalks[s], slotGrids[s], slotLooks[s].block, piece.t0, piece.t1);
+      ++result.cells;
+    }
+  }
+  [[unroll]] for (uint m = kHomogeneousMedia; m < kMedia; ++m) {
+    if (hasDensity(m)) {
+      sum += media[m].sigmaT * slotCubics[slotOf(media[m].densityGrid)];
+    }
+  }
+  [[unroll]] for (uint h = 0u; h < kHomogeneousMedia; ++h) {
+    sum.x += homogeneousActive(h, piece) ? media[h].sigmaT : 0.0;
+  }
+  return sum;
+}
+
+float mediumSigmaT(uint m, Piece piece, float f) {
+  if (m < kHomogeneousMedia) {
+    return homogeneousActive(m, piece) ? media[m].sigmaT : 0.0;
+  }
+  return hasDensity(m) ? media[m].sigmaT * cubicAt(slotCubics[slotOf(media[m].densityGrid)], f) : 0.0;
+}
+
+// sigma_s times the phase function, summed over the media, for light that arrives from `w`.
+vec3 scatteringTowards(Piece piece, float f, vec3 w) {
+  vec3 sum = vec3(0.0);
+  [[unroll]] for (uint m = 0u; m < kMedia; ++m) {
+    sum += media[m].albedo * (mediumSigmaT(m, piece, f) * evalPhase(media[m].phase, rayDirection, w));
+  }
+  return sum;
+}
+
+// Optical depth of the grids between the ray at t and the light of beam b, from the caches.
+float cachedDepth(uint b, float t, vec3 toLight, float distance) {
+  float tau = 0.0;
+  [[unroll]] for (uint s = 0u; s < kSlots; ++s) {
+    const uint i = b * kSlots + s;
+    if (beamCached[i]) {
+      if (slotWalks[s].tEnter <= t && t <= slotWalks[s].tLeave) {
+        tau += lightCacheDepth(beamCaches[i], slotWalks[s].origin + t * slotWalks[s].direction);
+      } else if (kSlots > 1u || kHomogeneousMedia > 0u) {
+        tau += lightDepthFrom(slotGrids[s], beamCaches[i], rayOrigin + t * rayDirection, toLight, distance);
+      }
+    }
+  }
+  return tau;
+}
+
+// The same by walking.
+float exactDepth(vec3 point, vec3 toLight, float distance, inout MarchResult result) {
+  float tau = 0.0;
+  [[unroll]] for (uint m = kHomogeneousMedia; m < kMedia; ++m) {
+    if (hasDensity(m) && tau < kOpaqueDepth) {
+      tau += cellOpticalDepth(slotGrids[slotOf(media[m].densityGrid)], media[m].sigmaT, point, toLight,
+                              vec2(0.0, distance), kOpaqueDepth, result.cells);
+    }
+  }
+  return tau;
+}
+
+// One beam at its position of the piece [t0, t0 + share * (t1 - t0)], offset u. `throughput` is that of t0.
+void takeBeam(uint sectorGroup, Piece piece, vec4 extinction, float share, float u, float throughput,
+              uint b, inout Kept kept, inout MarchResult result, inout Rng rng) {
+  const Beam beam = beams[b];
+  if (beam.strength == vec3(0.0)) {
+    return;
+  }
+  const float length = piece.t1 - piece.t0;
+  float f = share * u;
+  float inversePdf = share * length;
+  vec3 toLight = beam.place;
+  float distance = kInfiniteDistance;
+  vec3 irradiance = beam.strength;
+  if (kPointLights && beam.point) {
+    const Equiangular e = equiangularMake(rayOrigin + piece.t0 * rayDirection, rayDirection, beam.place, 0.0, inversePdf);
+    const float s = equiangularSample(e, u);
+    const float pdf = equiangularPdf(e, s);
+    f = length > 0.0 ? min(s / length, 1.0) : 0.0;
+    inversePdf = pdf > 0.0 ? 1.0 / pdf : 0.0;
+    toLight = beam.place - (rayOrigin + (piece.t0 + s) * rayDirection);
+    distance = sqrt(dot(toLight, toLight));
+    if (distance == 0.0) {
+      return; // a set of measure zero
+    }
+    toLight /= distance;
+    irradiance = kPlantedBug == kBugJacobian ? irradiance : irradiance / distance / distance;
+  }
+  const float t = piece.t0 + f * length;
+  vec3 contribution = scatteringTowards(piece, f, toLight) * irradiance *
+                      (throughput * exp(-length * cubicIntegral(extinction, f)) * inversePdf);
+  if (kHomogeneousMedia > 0u) {
+    contribution *= homogeneousTransmittance(rayOrigin + t * rayDirection, toLight, distance);
+  }
+  if (kSlots == 0u) {
+    result.scattered += contribution;
+    return;
+  }
+  const float cached = exp(-cachedDepth(b, t, toLight, distance));
+  result.scattered += contribution * cached;
+  if (kCorrection) {
+    const bool sector = kDistantAreas && beam.group >= sectorGroup;
+    const float weight = max(contribution.x, max(contribution.y, contribution.z)) * (cached + (sector ? kKeepFloorSector : kKeepFloor));
+    kept.weightSum += weight;
+    if (rngFloat(rng) * kept.weightSum < weight) {
+      kept = Kept(kept.weightSum, weight, t, b, cached, contribution);
+    }
+  }
+}
+
+vec3 pieceEmission(vec3Ptr blackbody, Piece piece, float f) {
+  vec3 sum = vec3(0.0);
+  [[unroll]] for (uint m = 0u; m < kMedia; ++m) {
+    if (media[m].emissionKind == kEmissionNone) {
+      continue;
+    }
+    if (m < kHomogeneousMedia) {
+      sum += homogeneousActive(m, piece) ? media[m].emission : vec3(0.0);
+    } else if (kGridEmission && slotFilled(slotOf(media[m].emissionGrid), piece)) {
+      const vec4 k = slotCubics[slotOf(media[m].emissionGrid)];
+      const float value = k.x + f * (k.y + f * (k.z + f * k.w)); // may be negative: degrees
+      sum += emissionOf(media[m], blackbody, value, mediumSigmaT(m, piece, f));
+    }
+  }
+  return sum;
+}
+
+// What a piece gives whatever the lights: emission, and the layers beside the picture.
+void takePiece(vec3Ptr blackbody, Piece piece, vec4 extinction, float share, float u, float throughput, inout MarchResult result) {
+  const float length = piece.t1 - piece.t0;
+  const float f = share * u;
+  const float weight = throughput * share * length * exp(-length * cubicIntegral(extinction, f));
+  if (kHomogeneousMedia > 0u || kGridEmission) {
+    result.scattered += weight * pieceEmission(blackbody, piece, f);
+  }
+  if (kAovs) {
+    [[unroll]] for (uint m = 0u; m < kMedia; ++m) {
+      const float opacity = weight * mediumSigmaT(m, piece, f);
+      result.opacity += opacity;
+      result.depth += opacity * (piece.t0 + f * length);
+      result.albedo += opacity * media[m].albedo;
+    }
+  }
+}
+
+void correct(Kept kept, inout MarchResult result) {
+  const vec3 point = rayOrigin + kept.t * rayDirection;
+  Beam beam = beams[0];
+  [[unroll]] for (uint b = 1u; b < kBeams; ++b) {
+    if (kept.beam == b) {
+      beam = beams[b];
+    }
+  }
+  vec3 toLight = beam.place;
+  float distance = kInfiniteDistance;
+  if (kPointLights && beam.point) {
+    toLight = beam.place - point;
+    distance = sqrt(dot(toLight, toLight));
+    toLight /= max(distance, 1e-30);
+  }
+  const float exact = exp(-exactDepth(point, toLight, distance, result));
+  const float cached = kPlantedBug == kBugOtherCache ? kept.cached * 0.99 : kept.cached;
+  result.scattered += kept.contribution * ((exact - cached) * (kept.weightSum / kept.weight));
+  ++result.corrections;
+}
+
+// Marches one ray. `direction` is unit; `offset` is u.
+MarchResult marchRay(ScenePtr scene, MarchScenePtr march, vec3 origin, vec3 direction, Sobol sobol, inout Rng rng) {
+  MarchResult result = MarchResult(vec3(0.0), 1.0, 0.0, 0.0, vec3(0.0), 0u, 0u, 0u, false);
+  Kept kept = Kept(0.0, 0.0, 0.0, 0u, 0.0, vec3(0.0));
+  const vec2 stretch = beginRay(origin, direction);
+  if (stretch.x >= stretch.y) {
+    return result;
+  }
+  makeBeams(scene, march, rayOrigin, rayDirection, stretch, sobol, rng);
+  const float base = dot(rayOrigin - origin, direction);
+  const float u = sobolFloat(sobol, kDimOffset);
+  const vec4 extent = vec4(march.at[0].centre, march.at[0].radius);
+  vec3Ptr blackbody = scene.at[0].blackbody;
+  const uint maxSteps = march.at[0].maxSteps;
+  const uint sectorGroup = march.at[0].sectorGroup;
+  float roulette = 1.0;  // 1 / probability of still being shaded
+  float next = kFirstRoulette;
+  float t = stretch.x;
+  [[dont_unroll]] while (t < stretch.y && result.transmittance > kOpaque) {
+    if (++result.steps > maxSteps) {
+      result.cut = true;
+      break;
+    }
+    Piece piece = nextPiece(extent, t);
+    if (piece.t1 >= kInfiniteDistance) {
+      break;
+    }
+    if (piece.media) {
+      const vec4 extinction = pieceExtinction(piece, result);
+      const float length = piece.t1 - piece.t0;
+      // Dense cells are taken in parts; the walk does not step before the last one.
+      float share = 1.0;
+      [[dont_unroll]] while (length * cubicIntegral(extinction, share) > kPieceDepth && piece.t0 + 0.5 * share * length > piece.t0) {
+        share *= 0.5;
+      }
+      if (roulette > 0.0) {
+        const float throughput = result.transmittance * roulette;
+        takePiece(blackbody, piece, extinction, share, u, throughput, result);
+        [[unroll]] for (uint b = 0u; b < kBeams; ++b) {
+          takeBeam(sectorGroup, piece, extinction, share, u, throughput, b, kept, result, rng);
+        }
+      }
+      result.transmittance *= exp(-length * cubicIntegral(extinction, share));
+      if (result.transmittance < next) {
+        next *= 1.0 / 64.0;
+        roulette = rngFloat(rng) < 0.25 ? 4.0 * roulette : 0.0;
+      }
+      if (share < 1.0) {
+        t = piece.t0 + share * length;
+        continue;
+      }
+    }
+    leavePiece(piece);
+    t = piece.t1;
+  }
+  result.depth += base * result.opacity;
+  if (kCorrection && kSlots > 0u && kept.weight > 0.0) {
+    correct(kept, result);
+  }
+  return result;
+}
+
+#endif

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/choose.h"
+
+#include "base/error.h"
+#include "gpu_scene/lights.h"
+#include "interop/march.h"
+#include "render/march_scene.h"
+
+#include <algorithm>
+
+namespace tyndall::render {
+namespace {
+
+/// Pieces of a ray that one dispatch can hold on every driver.
+constexpr std::uint32_t kMostPieces = 50000;
+/// Light caches beyond this share of the memory would rather be coarser.
+constexpr double kCacheShare = 0.25;
+
+/// Why the march does not serve, or empty.
+std::string obstacle(const scene::Scene& scene, const gpu_scene::PackedMedia& media, double cellBytes, double memoryBytes) {
+  const auto distant = std::count_if(scene.lights.begin(), scene.lights.end(), [](const scene::NamedLight& named) {
+    return !std::holds_alternative<scene::PointLight>(named.light);
+  });
+  if (media.placements.size() > interop::kMaxSlots) {
+    return fmt::format("{} grids are placed, it walks at most {} side by side", media.placements.size(), interop::kMaxSlots);
+  }
+  if (media.homogeneousCount > interop::kMaxHomogeneous) {
+    return fmt::format("there are {} homogeneous media, it takes at most {}", media.homogeneousCount, interop::kMaxHomogeneous);
+  }
+  if (distant + 2 > std::ptrdiff_t(interop::kMaxBeams)) {
+    return fmt::format("there are {} lights at infinity, it takes at most {}", distant, interop::kMaxBeams - 2);
+  }
+  if (mostPieces(media) > kMostPieces) {
+    return "a ray may cross too many voxels for one dispatch";
+  }
+  if (cellBytes > memoryBytes) {
+    return fmt::format("its grids need {:.1f} MB of device memory, {:.1f} MB are allowed", cellBytes * 1e-6, memoryBytes * 1e-6);
+  }
+  return "";
+}
+
+} // namespace
+
+MethodChoice chooseMethod(const scene::Scene& scene, const gpu_scene::VolumeSet& volumes, std::optional<Method> wanted,
+                          double memoryBytes) {
+  if (wanted == Method::Tracking) {
+    return {Method::Tracking, 0.0, "as asked for"};
+  }
+  const gpu_scene::PackedMedia media = gpu_scene::packMedia(scene, volumes, sceneBounds(scene, volumes).centre());
+  const double cellBytes = gpu_scene::plannedCellBytes(media, volumes);
+  const std::string why = obstacle(scene, media, cellBytes, memoryBytes);
+  if (!why.empty() && wanted) {
+    fail("--estimator march: {}; use --estimator tracking or auto", why);
+  }
+  if (!why.empty()) {
+    return {Method::Tracking, 0.0, "the march does not serve: " + why};
+  }
+  return {Method::March, std::min(kCacheShare * memoryBytes, memoryBytes - cellBytes),
+          wanted ? "as asked for" : "least variance for its time"};
+}
+
+} // namespace tyndall::render
