@@ -4,6 +4,7 @@
 #include "film/film.h"
 #include "film/statistics.h"
 #include "gpu_scene/volumes.h"
+#include "interop/planted_bugs.h"
 #include "render/estimator.h"
 #include "scene/scene.h"
 
