@@ -92,8 +92,9 @@ bool cellStep(inout CellWalk walk, CellGrid grid, CellStep look) {
     const int shift = look.edge == kBrickEdge ? 3 : 5;
     const ivec3 region = walk.cell >> shift;
     const ivec3 first = region << shift;
-    // The other axes are held inside the region that is left.
-    const ivec3 inside = clamp(ivec3(floor(walk.origin + look.tExit * walk.direction)), first, first + look.edge - 1);
+    // The other axes are held inside the region that is left, and inside the grid, which may end in the region.
+    const ivec3 last = min(first + look.edge, grid.brickCount * kBrickEdge) - 1;
+    const ivec3 inside = clamp(ivec3(floor(walk.origin + look.tExit * walk.direction)), first, last);
     const ivec3 leaving = mix(first - 1, first + look.edge, greaterThan(walk.towards, ivec3(0)));
     walk.cell = mix(inside, leaving, equal(along, ivec3(1)));
   }

@@ -93,8 +93,14 @@ int mergeCommand(const MergeArguments& arguments) {
   fmt::print("{} parts: {}x{} pixels, estimated relative error {:.2f} % (90 % bound {:.2f} %)\n", parts.size(),
              extent.x, extent.y, 100.0 * error.relative, 100.0 * error.upper);
   fmt::print("wrote {} and {}\n", files.exr.string(), files.png.string());
-  const std::uint64_t unsound =
-      film::countOf(merged.metadata, "nonFinite") + film::countOf(merged.metadata, "majorantExceeded");
+  if (const auto biased = merged.metadata.find("estimator.biased");
+      biased != merged.metadata.end() && biased->second != "0") {
+    spdlog::warn("{}: is BIASED: its parts were rendered with --preview", arguments.output);
+  }
+  std::uint64_t unsound = 0;
+  for (const char* count : {"nonFinite", "majorantExceeded", "cut"}) {
+    unsound += film::countOf(merged.metadata, count);
+  }
   if (files.report.nonFinitePixels > 0 || unsound > 0) {
     spdlog::error("{} pixels are not finite, {} samples of the parts were not sound; render the parts again",
                   files.report.nonFinitePixels, unsound);

@@ -20,9 +20,14 @@ namespace {
 
 constexpr double kDefaultMemoryShare = 0.8;
 
-/// Bytes that the volumes may take.
+/// Device bytes that the render may take.
+double allowedBytes(const RenderRequest& request, const gpu::Device& device) {
+  return request.memoryBytes.value_or(kDefaultMemoryShare * double(device.info().memoryBytes));
+}
+
+/// Those of them that are left for volumes and light caches.
 double volumeBudget(const RenderRequest& request, const gpu::Device& device) {
-  const double all = request.memoryBytes.value_or(kDefaultMemoryShare * double(device.info().memoryBytes));
+  const double all = allowedBytes(request, device);
   const double estimator = render::plannedBytes(device, {.method = request.method.value_or(render::Method::Tracking)});
   if (all <= estimator) {
     fail("--memory: rendering alone needs {} on this device; allow more", inBytes(estimator));
@@ -63,8 +68,8 @@ public:
     }
     int exitCode = kDone;
     for (const std::optional<int>& frame : framesOf(request_)) {
-      Prepared prepared = takeOrPrepare(frame);
-      const int code = renderPicture({request_, device_, interrupted_, say()}, prepared, outputFiles(request_, frame));
+      const std::unique_ptr<Prepared> prepared = takeOrPrepare(frame);
+      const int code = renderPicture({request_, device_, interrupted_, say()}, *prepared, outputFiles(request_, frame));
       exitCode = std::max(exitCode, code);
       if (interrupted_) {
         exitCode = std::max(exitCode, frame == framesOf(request_).back() ? kDone : kInterrupted);
@@ -112,9 +117,12 @@ private:
     }
   }
 
-  Prepared prepare(const std::optional<int>& frame) {
+  std::unique_ptr<Prepared> prepare(const std::optional<int>& frame) {
     const Stopwatch load;
-    Prepared prepared{.scene = sceneOfFrame(source_.scene, frame), .volumes = {}, .choice = {}, .gpuScene = {}, .timings = timings_};
+    auto result = std::make_unique<Prepared>();
+    Prepared& prepared = *result;
+    prepared.scene = sceneOfFrame(source_.scene, frame);
+    prepared.timings = timings_;
     if (source_.volumes && (!frame || frame == source_.exposureFrame)) {
       prepared.volumes = std::move(*source_.volumes);
       source_.volumes.reset();
@@ -123,12 +131,23 @@ private:
     }
     prepared.timings.load += load.seconds();
     const Stopwatch upload;
-    prepared.choice = render::chooseMethod(prepared.scene, prepared.volumes, request_.method, budget_);
+    chooseMethod(prepared);
     prepared.gpuScene = std::make_unique<gpu_scene::GpuScene>(device_, prepared.scene, prepared.volumes,
                                                               render::layoutOf(prepared.choice.method));
     prepared.timings.upload = upload.seconds();
+    const Stopwatch estimator;
+    prepared.estimator = render::makeEstimator(device_, *prepared.gpuScene, prepared.volumes,
+                                               estimatorOptions(request_, prepared.choice));
+    prepared.timings.estimator = estimator.seconds();
     tellAbout(prepared);
-    return prepared;
+    return result;
+  }
+
+  void chooseMethod(Prepared& prepared) const {
+    prepared.choice = render::chooseMethod(prepared.scene, prepared.volumes, request_.method, budget_);
+    if (request_.preview && prepared.choice.method != render::Method::March) {
+      fail("--preview is the march without its correction, and {}; leave --preview away", prepared.choice.reason);
+    }
   }
 
   void tellAbout(const Prepared& prepared) const {
@@ -138,13 +157,29 @@ private:
     for (const std::string& note : prepared.gpuScene->notes()) {
       say()(note);
     }
-    say()(fmt::format("estimator: {} ({})", render::methodName(prepared.choice.method), prepared.choice.reason));
+    tellAboutEstimator(prepared);
     say()(fmt::format("device memory: {} of {} allowed, on {}", inBytes(double(device_.allocatedBytes())),
-                      inBytes(budget_), device_.info().name));
+                      inBytes(allowedBytes(request_, device_)), device_.info().name));
     const std::vector<volume::BrickGrid>& grids = prepared.volumes.grids;
     const bool empty = std::all_of(grids.begin(), grids.end(), [](const auto& grid) { return grid.empty(); });
     if (!grids.empty() && empty) {
       spdlog::warn("{}: the volume is empty; the picture shows what is around it", prepared.scene.media.front().file);
+    }
+  }
+
+  void tellAboutEstimator(const Prepared& prepared) const {
+    say()(fmt::format("estimator: {} ({})", render::methodName(prepared.choice.method), prepared.choice.reason));
+    if (request_.preview) {
+      say()("preview: BIASED, light caches are taken for true; lights without one cast no shadows through grids");
+    }
+    const render::CacheReport caches = prepared.estimator->caches();
+    if (caches.count + caches.dropped > 0) {
+      say()(fmt::format("light caches: {} of {}, {}, built in {:.2f} s", caches.count, caches.count + caches.dropped,
+                        inBytes(caches.bytes), caches.seconds));
+    }
+    if (caches.dropped > 0) {
+      say()(fmt::format("{} light caches do not fit into the device memory allowed: {} (--memory allows more)",
+                        caches.dropped, request_.preview ? "the preview lacks their shadows" : "expect more noise"));
     }
   }
 
@@ -155,9 +190,7 @@ private:
     prepared_ = prepare(source_.exposureFrame);
     preparedFrame_ = source_.exposureFrame;
     const Stopwatch watch;
-    source_.scene.film.exposure =
-        chooseExposure(device_, prepared_->scene, prepared_->volumes, *prepared_->gpuScene,
-                       estimatorOptions(request_, prepared_->choice));
+    source_.scene.film.exposure = chooseExposure(prepared_->scene, *prepared_->estimator, prepared_->choice.method);
     timings_.exposure = watch.seconds();
     prepared_->timings.exposure = timings_.exposure;
     if (preparedFrame_ != framesOf(request_).front()) {
@@ -166,14 +199,12 @@ private:
     say()(fmt::format("exposure {:+.1f} stops (override with --exposure)", source_.scene.film.exposure));
   }
 
-  Prepared takeOrPrepare(const std::optional<int>& frame) {
+  std::unique_ptr<Prepared> takeOrPrepare(const std::optional<int>& frame) {
     if (!prepared_ || preparedFrame_ != frame) {
       return prepare(frame);
     }
-    Prepared prepared = std::move(*prepared_);
-    prepared_.reset();
-    prepared.scene.film.exposure = source_.scene.film.exposure;
-    return prepared;
+    prepared_->scene.film.exposure = source_.scene.film.exposure;
+    return std::move(prepared_);
   }
 
   Stopwatch watch_;
@@ -183,7 +214,7 @@ private:
   double budget_;
   Timings timings_;
   Source source_;
-  std::optional<Prepared> prepared_; ///< what the exposure was chosen from
+  std::unique_ptr<Prepared> prepared_; ///< what the exposure was chosen from
   std::optional<int> preparedFrame_;
 };
 

@@ -10,8 +10,9 @@
 namespace tyndall::app {
 namespace {
 
-constexpr std::uint32_t kLongerEdge = 96;  // pixels of the preview
-constexpr std::uint32_t kSamples = 16;
+constexpr std::uint32_t kLongerEdge = 96; // pixels of the preview
+constexpr std::uint32_t kTrackingSamples = 16;
+constexpr std::uint32_t kMarchSamples = 4; // the first 4 of a batch are a set of their own
 /// A filmic curve darkens what lies between grey and white; a picture under a sky wants to be a little brighter.
 constexpr double kFilmicStops = 1.0;
 
@@ -35,27 +36,27 @@ std::vector<float> smoothed(const std::vector<float>& channel, const glm::ivec2&
 
 } // namespace
 
-double chooseExposure(const gpu::Device& device, const scene::Scene& scene, const gpu_scene::VolumeSet& volumes,
-                      const gpu_scene::GpuScene& gpuScene, const render::EstimatorOptions& options) {
+double chooseExposure(const scene::Scene& scene, render::Estimator& estimator, render::Method method) {
+  const std::uint32_t samples = method == render::Method::March ? kMarchSamples : kTrackingSamples;
   const glm::uvec2 size = scene.film.size;
   const std::uint32_t stride = std::max(1u, (std::max(size.x, size.y) + kLongerEdge - 1) / kLongerEdge);
   const glm::uvec2 previewSize = (size + stride - 1u) / stride;
   std::vector<std::uint32_t> pixels;
   for (std::uint32_t y = 0; y < previewSize.y; ++y) {
     for (std::uint32_t x = 0; x < previewSize.x; ++x) {
-      pixels.push_back(std::min(x * stride + stride / 2, size.x - 1) | std::min(y * stride + stride / 2, size.y - 1) << 16);
+      pixels.push_back(std::min(x * stride + stride / 2, size.x - 1) | std::min(y * stride + stride / 2, size.y - 1)
+                                                                           << 16);
     }
   }
   film::Film film(previewSize, {glm::uvec2(0), previewSize});
-  const std::unique_ptr<render::Estimator> estimator = render::makeEstimator(device, gpuScene, volumes, options);
-  for (std::size_t first = 0; first < pixels.size(); first += estimator->chunkPixels()) {
-    const std::size_t count = std::min<std::size_t>(estimator->chunkPixels(), pixels.size() - first);
-    const auto sums = estimator->run(std::span(pixels).subspan(first, count), {0, kSamples}, scene.render.seed);
+  for (std::size_t first = 0; first < pixels.size(); first += estimator.chunkPixels()) {
+    const std::size_t count = std::min<std::size_t>(estimator.chunkPixels(), pixels.size() - first);
+    const auto sums = estimator.run(std::span(pixels).subspan(first, count), {0, samples}, scene.render.seed);
     for (std::size_t i = 0; i < count; ++i) {
       film::BatchSums batch;
       std::copy(std::begin(sums[i].moments), std::end(sums[i].moments), batch.moments.begin());
       std::copy(std::begin(sums[i].extras), std::end(sums[i].extras), batch.extras.begin());
-      film.add(first + i, 0, kSamples, batch);
+      film.add(first + i, 0, samples, batch);
     }
   }
   film::Image image = film::makeImage(film, {.transparent = true});

@@ -8,8 +8,8 @@
 namespace tyndall::app {
 
 /// Stops for the scene's picture, rounded to a tenth, from a few samples of one pixel in every small square: some
-/// 10^4 pixels whatever the size. The same scene gives the same number.
-double chooseExposure(const gpu::Device& device, const scene::Scene& scene, const gpu_scene::VolumeSet& volumes,
-                      const gpu_scene::GpuScene& gpuScene, const render::EstimatorOptions& options);
+/// 10^4 pixels whatever the size. The same scene and estimator give the same number.
+/// @param estimator of `method`, made for the scene; its totals count the samples.
+double chooseExposure(const scene::Scene& scene, render::Estimator& estimator, render::Method method);
 
 } // namespace tyndall::app

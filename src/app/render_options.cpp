@@ -19,8 +19,9 @@ CLI::Option* text(CLI::App& command, const std::string& name, const Take& take, 
 template <class Value, class Parse>
 void parsed(CLI::App& command, const std::string& name, Value& target, const Parse& parse,
             const std::pair<std::string, std::string>& formAndHelp) {
-  text(command, name, [&target, parse, name](const std::string& value) { target = parse(name, value); },
-       formAndHelp.second, formAndHelp.first);
+  text(
+      command, name, [&target, parse, name](const std::string& value) { target = parse(name, value); },
+      formAndHelp.second, formAndHelp.first);
 }
 
 constexpr std::uint32_t kMaxSamples = 1u << 30; // as in a scene file
@@ -32,11 +33,14 @@ void addLimits(CLI::App& command, RenderRequest& request) {
   parsed(command, "--spp", request.samples, samples, {"N", "stop after N samples per pixel"});
   parsed(command, "--time", request.seconds, parseSeconds, {"T", "stop after this time: 60, 60s, 2m or 1h"});
   parsed(command, "--error", request.error, parseShare, {"E", "stop at this estimated relative error: 1% or 0.01"});
-  text(command, "--depth", [](const std::string& value) {
-    if (parseWhole("--depth", value, {}) != 1) {
-      fail("--depth {}: this version renders single scattering; leave --depth away or give 1", value);
-    }
-  }, "scattering events on a path; this version renders 1", "N");
+  text(
+      command, "--depth",
+      [](const std::string& value) {
+        if (parseWhole("--depth", value, {}) != 1) {
+          fail("--depth {}: this version renders single scattering; leave --depth away or give 1", value);
+        }
+      },
+      "scattering events on a path; this version renders 1", "N");
 }
 
 void addFilm(CLI::App& command, RenderRequest& request) {
@@ -45,75 +49,116 @@ void addFilm(CLI::App& command, RenderRequest& request) {
   const auto seed = [](const std::string& option, const std::string& value) { return parseWhole(option, value, {}); };
   parsed(command, "--seed", request.seed, seed, {"N", "of the random numbers"});
   command.add_option("--aov", request.aovs, "layers to add to the EXR: " + joinNames(film::aovNames()))
-      ->delimiter(',')->type_name("a,b");
+      ->delimiter(',')
+      ->type_name("a,b");
   command.add_flag("--transparent", request.transparent, "leave the background out of R, G, B (it gets its own layer)");
-  text(command, "--exposure", [&request](const std::string& value) {
-    if (value == "auto") {
-      request.chooseExposure = true;
-    } else {
-      request.exposure = parseNumber("--exposure", value);
-    }
-  }, "exposure of the PNG in stops, or auto", "STOPS");
+  text(
+      command, "--exposure",
+      [&request](const std::string& value) {
+        if (value == "auto") {
+          request.chooseExposure = true;
+        } else {
+          request.exposure = parseNumber("--exposure", value);
+        }
+      },
+      "exposure of the PNG in stops, or auto", "STOPS");
 }
 
 void addWork(CLI::App& command, RenderRequest& request) {
-  text(command, "-o,--output", [&request](const std::string& value) { request.output = value; },
-       "EXR to write, with a PNG beside it (default: the input's name, in this folder)", "FILE");
+  text(
+      command, "-o,--output", [&request](const std::string& value) { request.output = value; },
+      "EXR to write, with a PNG beside it (default: the input's name, in this folder)", "FILE");
   command.add_flag("--resume", request.resume, "go on from the checkpoint, and keep it");
-  parsed(command, "--checkpoint-every", request.checkpointSeconds, parseSeconds, {"T", "time between checkpoints (20 s)"});
-  text(command, "--stats", [&request](const std::string& value) { request.statistics = value; }, "statistics as JSON", "FILE");
-  text(command, "--write-scene", [&request](const std::string& value) { request.writeScene = value; },
-       "save the scene as it is rendered", "FILE");
+  parsed(command, "--checkpoint-every", request.checkpointSeconds, parseSeconds,
+         {"T", "time between checkpoints (20 s)"});
+  text(
+      command, "--stats", [&request](const std::string& value) { request.statistics = value; }, "statistics as JSON",
+      "FILE");
+  text(
+      command, "--write-scene", [&request](const std::string& value) { request.writeScene = value; },
+      "save the scene as it is rendered", "FILE");
   command.add_flag("--mergeable", request.mergeable, "also write FILE.exr.part, which tyndall merge joins");
   command.add_flag("--quiet", request.quiet, "say nothing but warnings and errors");
-  text(command, "--device", [&request](const std::string& value) { request.device = value; },
-       "Vulkan device, by number or part of its name", "NAME");
-  parsed(command, "--memory", request.memoryBytes, parseBytes, {"SIZE", "device memory to use at most: 800M, 2G (default 80 %)"});
-  text(command, "--estimator", [&request](const std::string& value) {
-    if (value != "auto" && value != "march" && value != "tracking") {
-      fail("--estimator {}: there are auto (the default), march and tracking", value);
-    }
-    request.method = value == "march" ? std::optional(render::Method::March)
-                     : value == "tracking" ? std::optional(render::Method::Tracking) : std::nullopt;
-  }, "how light along a ray is computed: auto, march or tracking", "NAME");
+  text(
+      command, "--device", [&request](const std::string& value) { request.device = value; },
+      "Vulkan device, by number or part of its name", "NAME");
+  parsed(command, "--memory", request.memoryBytes, parseBytes,
+         {"SIZE", "device memory to use at most: 800M, 2G (default 80 %)"});
+  text(
+      command, "--estimator",
+      [&request](const std::string& value) {
+        if (value != "auto" && value != "march" && value != "tracking") {
+          fail("--estimator {}: there are auto (the default), march and tracking", value);
+        }
+        request.method = value == "march"      ? std::optional(render::Method::March)
+                         : value == "tracking" ? std::optional(render::Method::Tracking)
+                                               : std::nullopt;
+      },
+      "how light along a ray is computed: march (exact steps, light caches), tracking (random steps), or auto: the "
+      "march wherever it serves",
+      "NAME");
   command.add_flag("--preview", request.preview,
-                   "BIASED, faster: the march trusts its light caches and leaves out their correction");
-  text(command, "--tracker", [&request](const std::string& value) {
-    if (value != "weighted" && value != "delta") {
-      fail("--tracker {}: there are weighted (the default) and delta", value);
-    }
-    request.deltaTracking = value == "delta";
-  }, "how distances in grids are sampled: weighted or delta", "NAME");
+                   "BIASED, for a quick look: the march takes its light caches for true instead of correcting them");
+  text(
+      command, "--tracker",
+      [&request](const std::string& value) {
+        if (value != "weighted" && value != "delta") {
+          fail("--tracker {}: there are weighted (the default) and delta", value);
+        }
+        request.deltaTracking = value == "delta";
+      },
+      "how tracking samples distances in grids: weighted (the default) or delta; implies --estimator tracking", "NAME");
 }
 
 void addScene(CLI::App& command, RenderRequest& request) {
-  command.add_option_function<std::vector<std::string>>("--set", [&request](const std::vector<std::string>& values) {
-    for (const std::string& value : values) {
-      const std::size_t equals = value.find('=');
-      if (equals == std::string::npos || equals == 0) {
-        fail("--set {}: write a path, = and a value, such as --set film.exposure=1", value);
-      }
-      request.overrides.push_back({value.substr(0, equals), value.substr(equals + 1)});
-    }
-  }, "change a value of the scene; can be repeated")->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->allow_extra_args(false)->type_name("path=value");
-  text(command, "--frames", [&request](const std::string& value) { request.frames = volume::parseFrames(value); },
-       "frames of a sequence such as smoke_%04d.vdb or smoke_####.vdb", "a-b");
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--set",
+          [&request](const std::vector<std::string>& values) {
+            for (const std::string& value : values) {
+              const std::size_t equals = value.find('=');
+              if (equals == std::string::npos || equals == 0) {
+                fail("--set {}: write a path, = and a value, such as --set film.exposure=1", value);
+              }
+              request.overrides.push_back({value.substr(0, equals), value.substr(equals + 1)});
+            }
+          },
+          "change a value of the scene; can be repeated")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false)
+      ->type_name("path=value");
+  text(
+      command, "--frames", [&request](const std::string& value) { request.frames = volume::parseFrames(value); },
+      "frames of a sequence such as smoke_%04d.vdb or smoke_####.vdb", "a-b");
 }
 
 void addBareVolume(CLI::App& command, RenderRequest& request) {
   const std::string group = "Bare volumes";
-  text(command, "--grid", [&request](const std::string& value) { request.grid = value; }, "density grid, by name", "NAME")->group(group);
-  text(command, "--density-scale", [&request](const std::string& value) { request.densityScale = parsePositive("--density-scale", value); },
-       "extinction per unit of density", "X")->group(group);
-  text(command, "--optical-depth", [&request](const std::string& value) { request.opticalDepth = parsePositive("--optical-depth", value); },
-       "median optical depth to scale to (5)", "X")->group(group);
-  text(command, "--up", [&request](const std::string& value) {
-    if (value != "y" && value != "z") {
-      fail("--up {}: give y or z", value);
-    }
-    request.up = value == "z" ? scene::UpAxis::Z : scene::UpAxis::Y;
-  }, "the volume's axis that points up: y (default) or z", "AXIS")->group(group);
+  text(
+      command, "--grid", [&request](const std::string& value) { request.grid = value; }, "density grid, by name",
+      "NAME")
+      ->group(group);
+  text(
+      command, "--density-scale",
+      [&request](const std::string& value) { request.densityScale = parsePositive("--density-scale", value); },
+      "extinction per unit of density", "X")
+      ->group(group);
+  text(
+      command, "--optical-depth",
+      [&request](const std::string& value) { request.opticalDepth = parsePositive("--optical-depth", value); },
+      "median optical depth to scale to (5)", "X")
+      ->group(group);
+  text(
+      command, "--up",
+      [&request](const std::string& value) {
+        if (value != "y" && value != "z") {
+          fail("--up {}: give y or z", value);
+        }
+        request.up = value == "z" ? scene::UpAxis::Z : scene::UpAxis::Y;
+      },
+      "the volume's axis that points up: y (default) or z", "AXIS")
+      ->group(group);
 }
 
 } // namespace
@@ -122,7 +167,8 @@ std::shared_ptr<RenderRequest> addRenderOptions(CLI::App& app) {
   CLI::App* command = app.add_subcommand("render", "Render a scene (.json) or a volume (.vdb)");
   auto request = std::make_shared<RenderRequest>();
   command->add_option("input", request->input, "scene (.json), volume (.vdb) or sequence (smoke_####.vdb)")
-      ->required()->type_name("FILE");
+      ->required()
+      ->type_name("FILE");
   addWork(*command, *request);
   addLimits(*command, *request);
   addFilm(*command, *request);

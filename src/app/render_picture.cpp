@@ -45,11 +45,11 @@ film::Film renderWithProgress(const PictureContext& context, const Prepared& pre
   options.crop = request.crop.value_or(film::Window{});
   options.stop = stopRule(request, prepared.scene);
   options.seed = prepared.scene.render.seed;
-  options.estimator = estimatorOptions(request, prepared.choice);
+  options.secondsBefore = prepared.timings.estimator;
   options.checkpoint = files.checkpoint;
   options.checkpointSeconds = request.checkpointSeconds;
   options.resume = request.resume;
-  options.sceneHash = sceneHash(prepared.scene, prepared.volumes, options.estimator);
+  options.sceneHash = sceneHash(prepared.scene, prepared.volumes, estimatorOptions(request, prepared.choice));
   options.interrupted = &context.interrupted;
   options.progress = [&](const render::Progress& progress) {
     render::Progress shown = progress;
@@ -58,7 +58,7 @@ film::Film renderWithProgress(const PictureContext& context, const Prepared& pre
     }
     display.show(shown);
   };
-  return render::renderFilm(context.device, prepared.scene, prepared.volumes, *prepared.gpuScene, options, report);
+  return render::renderFilm(context.device, prepared.scene, prepared.volumes, *prepared.estimator, options, report);
 }
 
 /// Removes the checkpoint of a picture that is done, unless it is to be extended.
@@ -121,10 +121,16 @@ void sayWhatCameOut(const PictureContext& context, const RenderRecord& record, c
 int judge(const PictureContext& context, const RenderRecord& record, const film::Film& film, const OutputFiles& files) {
   const std::uint64_t nonFinite = film::countOf(film.metadata, "nonFinite"); // of earlier runs too
   const std::uint64_t majorantExceeded = film::countOf(film.metadata, "majorantExceeded");
-  if (nonFinite > 0 || majorantExceeded > 0) {
+  const std::uint64_t cut = film::countOf(film.metadata, "cut");
+  if (context.request.preview) {
+    spdlog::warn("{}: is BIASED (--preview): its error estimate does not know by how much; render without --preview "
+                 "for the picture that counts",
+                 files.exr.string());
+  }
+  if (nonFinite > 0 || majorantExceeded > 0 || cut > 0) {
     spdlog::error("{}: the picture is not sound: {} samples were not finite and left out, {} lookups exceeded their "
-                  "majorant; please report this with the scene, and use the picture with care",
-                  files.exr.string(), nonFinite, majorantExceeded);
+                  "majorant, {} rays were cut short; please report this with the scene, and use the picture with care",
+                  files.exr.string(), nonFinite, majorantExceeded, cut);
     return kFailed;
   }
   if (record.report.stoppedBy == "interrupt") {
@@ -137,12 +143,21 @@ int judge(const PictureContext& context, const RenderRecord& record, const film:
   return kDone;
 }
 
+/// What the grids in the estimator's layout, the light caches and the estimator's own buffers take.
+double plannedBytes(const PictureContext& context, const Prepared& prepared) {
+  const bool cells = render::layoutOf(prepared.choice.method) == gpu_scene::GridLayout::Cells;
+  const double grids = cells ? gpu_scene::plannedCellBytes(prepared.gpuScene->media(), prepared.volumes)
+                             : prepared.volumes.deviceBytes();
+  const render::EstimatorOptions options = estimatorOptions(context.request, prepared.choice);
+  return grids + prepared.estimator->caches().bytes + render::plannedBytes(context.device, options);
+}
+
 } // namespace
 
 render::EstimatorOptions estimatorOptions(const RenderRequest& request, const render::MethodChoice& choice) {
   return {.method = choice.method,
           .aovs = request.deviceAovs(),
-          .deltaTracking = request.deltaTracking,
+          .deltaTracking = request.deltaTracking.value_or(false),
           .preview = request.preview,
           .cacheBytes = choice.cacheBytes};
 }
@@ -158,8 +173,7 @@ int renderPicture(const PictureContext& context, const Prepared& prepared, const
                       .choice = prepared.choice,
                       .error = {},
                       .png = {},
-                      .plannedBytes = prepared.volumes.deviceBytes() +
-                                      render::plannedBytes(context.device, estimatorOptions(context.request, prepared.choice)),
+                      .plannedBytes = plannedBytes(context, prepared),
                       .timings = prepared.timings,
                       .notes = prepared.volumes.notes};
   const std::vector<std::string>& sceneNotes = prepared.gpuScene->notes();

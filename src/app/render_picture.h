@@ -11,12 +11,13 @@
 
 namespace tyndall::app {
 
-/// One picture's scene in device memory.
+/// One picture's scene in device memory. Stays where it was made: the estimator borrows from it.
 struct Prepared {
   scene::Scene scene;
   gpu_scene::VolumeSet volumes;
   render::MethodChoice choice;
   std::unique_ptr<gpu_scene::GpuScene> gpuScene;
+  std::unique_ptr<render::Estimator> estimator; ///< the exposure's and the picture's
   Timings timings;
 };
 
@@ -31,8 +32,8 @@ struct PictureContext {
 render::EstimatorOptions estimatorOptions(const RenderRequest& request, const render::MethodChoice& choice);
 
 /// Renders one picture, writes its files and says what came out.
-/// @return exit code: 0, 1 if the picture is unsound (samples that were not finite, or a majorant exceeded), 130 if it
-/// was interrupted. @throws Error if a file cannot be written or a checkpoint does not fit.
+/// @return exit code: 0, 1 if the picture is unsound (samples that were not finite, a majorant exceeded, rays cut
+/// short), 130 if it was interrupted. @throws Error if a file cannot be written or a checkpoint does not fit.
 int renderPicture(const PictureContext& context, const Prepared& prepared, const OutputFiles& files);
 
 } // namespace tyndall::app

@@ -60,13 +60,21 @@ void checkCombinations(const RenderRequest& request) {
   if (request.densityScale && request.opticalDepth) {
     fail("--density-scale and --optical-depth both say how dense the volume is; give one of them");
   }
+  if (request.preview && (request.method == render::Method::Tracking || request.deltaTracking)) {
+    fail("--preview is the march without its correction, tracking has none; leave --preview or {} away",
+         request.deltaTracking ? "--tracker" : "--estimator tracking");
+  }
+  if (request.method == render::Method::March && request.deltaTracking) {
+    fail("--tracker: the march samples no distances; give --tracker with --estimator tracking, or leave it away");
+  }
   if (volume::isSequence(fs::path(request.input).filename().string()) && !request.frames &&
       !fs::exists(request.input)) {
     fail("{}: names a sequence; say which frames to render, such as --frames 1-48", request.input);
   }
   if (request.frames && request.bareVolume() && !volume::isSequence(request.input)) {
     fail("--frames: {} is one file; put a placeholder where the frame's number stands, as in smoke_%04d.vdb or "
-         "smoke_####.vdb", request.input);
+         "smoke_####.vdb",
+         request.input);
   }
   // The picture of a single black pixel takes the same names.
   film::makeImage(film::Film(glm::uvec2(1), {glm::uvec2(0), glm::uvec2(1)}), {.aovs = request.aovs});
@@ -83,7 +91,8 @@ void checkNotInput(const RenderRequest& request, const fs::path& path) {
 void checkOutputs(const RenderRequest& request) {
   const std::optional<int> frame = request.frames ? std::optional(request.frames->first) : std::nullopt;
   const OutputFiles files = outputFiles(request, frame);
-  for (const fs::path& path : {files.exr, files.png, files.checkpoint, files.part, files.statistics, request.writeScene}) {
+  for (const fs::path& path :
+       {files.exr, files.png, files.checkpoint, files.part, files.statistics, request.writeScene}) {
     if (!path.empty()) {
       checkNotInput(request, path);
       checkWritable(path);
@@ -96,7 +105,8 @@ void checkOutputs(const RenderRequest& request) {
 bool RenderRequest::bareVolume() const { return lowerExtension(input) == ".vdb"; }
 
 bool RenderRequest::deviceAovs() const {
-  return std::any_of(aovs.begin(), aovs.end(), [](const std::string& name) { return name == "depth" || name == "albedo"; });
+  return std::any_of(aovs.begin(), aovs.end(),
+                     [](const std::string& name) { return name == "depth" || name == "albedo"; });
 }
 
 OutputFiles outputFiles(const RenderRequest& request, std::optional<int> frame) {
@@ -112,6 +122,9 @@ OutputFiles outputFiles(const RenderRequest& request, std::optional<int> frame) 
 
 void settle(RenderRequest& request) {
   checkCombinations(request);
+  if (request.deltaTracking) {
+    request.method = render::Method::Tracking; // who names a tracker wants to see it at work
+  }
   request.output = settledOutput(request);
   if (!request.frames && volume::isSequence(request.output.filename().string()) && !request.bareVolume()) {
     fail("-o {}: a placeholder for the frame needs --frames a-b", request.output.string());

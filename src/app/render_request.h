@@ -16,29 +16,29 @@ namespace tyndall::app {
 
 /// What `tyndall render` was asked for, each value checked by itself. nullopt: the scene decides.
 struct RenderRequest {
-  std::string input;                          ///< scene, volume, or a pattern of volumes
-  std::filesystem::path output;               ///< .exr, maybe with a frame placeholder
+  std::string input;            ///< scene, volume, or a pattern of volumes
+  std::filesystem::path output; ///< .exr, maybe with a frame placeholder
   std::optional<std::uint32_t> samples;
   std::optional<double> seconds;
-  std::optional<double> error;                ///< relative
+  std::optional<double> error; ///< relative
   std::optional<glm::uvec2> size;
   std::optional<film::Window> crop;
   std::optional<std::uint32_t> seed;
   std::vector<scene::Override> overrides;
   std::vector<std::string> aovs;
   bool transparent = false;
-  std::optional<double> exposure;             ///< stops
-  bool chooseExposure = false;                ///< --exposure auto
+  std::optional<double> exposure; ///< stops
+  bool chooseExposure = false;    ///< --exposure auto
   bool resume = false;
   double checkpointSeconds = 20.0;
-  std::filesystem::path statistics;           ///< empty: none
-  std::filesystem::path writeScene;           ///< empty: none
+  std::filesystem::path statistics; ///< empty: none
+  std::filesystem::path writeScene; ///< empty: none
   bool quiet = false;
   bool mergeable = false;
-  std::optional<render::Method> method;       ///< nullopt: chosen for the scene
-  bool preview = false;                       ///< biased: the march without its correction
-  bool deltaTracking = false;
-  std::string device;                         ///< index or part of the name
+  std::optional<render::Method> method; ///< nullopt: chosen for the scene
+  bool preview = false;                 ///< biased: the march without its correction
+  std::optional<bool> deltaTracking;    ///< --tracker; nullopt: not asked for
+  std::string device;                   ///< index or part of the name
   std::optional<double> memoryBytes;
   std::optional<volume::FrameRange> frames;
 
@@ -58,8 +58,8 @@ struct OutputFiles {
   std::filesystem::path exr;
   std::filesystem::path png;
   std::filesystem::path checkpoint;
-  std::filesystem::path part;        ///< empty unless mergeable
-  std::filesystem::path statistics;  ///< empty unless asked for
+  std::filesystem::path part;       ///< empty unless mergeable
+  std::filesystem::path statistics; ///< empty unless asked for
 };
 
 /// Names for one frame, or for the only picture.

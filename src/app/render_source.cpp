@@ -85,7 +85,8 @@ scene::AutoFrame autoFrame(const gpu_scene::VolumeSet& volumes) {
 }
 
 bool changesMedia(const std::vector<scene::Override>& overrides) {
-  return std::any_of(overrides.begin(), overrides.end(), [](const scene::Override& o) { return o.path.starts_with("media"); });
+  return std::any_of(overrides.begin(), overrides.end(),
+                     [](const scene::Override& o) { return o.path.starts_with("media"); });
 }
 
 Source makeUpSource(const RenderRequest& request, double memoryBudget, const Say& say) {
@@ -120,7 +121,8 @@ Source makeUpSource(const RenderRequest& request, double memoryBudget, const Say
   if (request.frames) {
     source.exposureFrame = request.frames->first + static_cast<int>(made.densestFrame);
   }
-  const bool exposureSet = std::any_of(request.overrides.begin(), request.overrides.end(), [](const scene::Override& o) { return o.path == "film.exposure"; });
+  const bool exposureSet = std::any_of(request.overrides.begin(), request.overrides.end(),
+                                       [](const scene::Override& o) { return o.path == "film.exposure"; });
   source.chooseExposure = !exposureSet && !request.exposure;
   return source;
 }
@@ -163,7 +165,8 @@ scene::Scene sceneOfFrame(const scene::Scene& scene, std::optional<int> frame) {
   return result;
 }
 
-std::string sceneHash(const scene::Scene& scene, const gpu_scene::VolumeSet& volumes, const render::EstimatorOptions& estimator) {
+std::string sceneHash(const scene::Scene& scene, const gpu_scene::VolumeSet& volumes,
+                      const render::EstimatorOptions& estimator) {
   scene::Scene core = scene;
   core.name.clear();
   core.film.exposure = 0.0;

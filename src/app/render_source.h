@@ -13,10 +13,10 @@ namespace tyndall::app {
 
 /// The scene of a request, made up for a bare volume, with the command line's changes.
 struct Source {
-  scene::Scene scene;                              ///< files of a sequence still as patterns
-  std::optional<gpu_scene::VolumeSet> volumes;     ///< of exposureFrame, where loading them was needed anyway
-  bool chooseExposure = false;                     ///< scene.film.exposure is still to be chosen
-  std::optional<int> exposureFrame;                ///< ... from this frame of a sequence
+  scene::Scene scene;                          ///< files of a sequence still as patterns
+  std::optional<gpu_scene::VolumeSet> volumes; ///< of exposureFrame, where loading them was needed anyway
+  bool chooseExposure = false;                 ///< scene.film.exposure is still to be chosen
+  std::optional<int> exposureFrame;            ///< ... from this frame of a sequence
   bool madeUp = false;
 };
 
@@ -33,6 +33,7 @@ scene::Scene sceneOfFrame(const scene::Scene& scene, std::optional<int> frame);
 
 /// 64-bit hash, as hex, of everything that decides the bits of a picture: the scene with what its files hold, the
 /// storage of its voxels, and the estimator. Sample counts, seed, exposure and names have no say.
-std::string sceneHash(const scene::Scene& scene, const gpu_scene::VolumeSet& volumes, const render::EstimatorOptions& estimator);
+std::string sceneHash(const scene::Scene& scene, const gpu_scene::VolumeSet& volumes,
+                      const render::EstimatorOptions& estimator);
 
 } // namespace tyndall::app

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <charconv>
+#include <cmath>
 
 namespace tyndall::app {
 namespace {
@@ -82,6 +82,7 @@ std::string statisticsJson(const RenderRecord& record, const film::Metadata& met
                      {"load", record.timings.load},
                      {"upload", record.timings.upload},
                      {"exposure", record.timings.exposure},
+                     {"estimator", record.timings.estimator}, // a part of the next two
                      {"compile_and_first_dispatch", report.firstDispatchSeconds},
                      {"render", report.seconds},
                      {"write", record.timings.write}};
@@ -122,6 +123,7 @@ film::Metadata pictureMetadata(const RenderRecord& record) {
   metadata["scene.name"] = record.scene.name;
   metadata["depth"] = std::to_string(record.scene.render.depth);
   metadata["estimator"] = estimatorText(record);
+  metadata["estimator.biased"] = record.request.preview ? "1" : "0";
   metadata["stop.reason"] = record.report.stoppedBy;
   metadata["stop.samples"] = std::to_string(record.scene.render.samples);
   metadata["error.relative"] = fmt::format("{:.6g}", record.error.relative);

@@ -13,10 +13,11 @@ namespace tyndall::app {
 
 /// Seconds of the stages of one picture.
 struct Timings {
-  double start = 0.0;     ///< device, driver
-  double load = 0.0;      ///< scene and volumes, framing
+  double start = 0.0; ///< device, driver
+  double load = 0.0;  ///< scene and volumes, framing
   double upload = 0.0;
   double exposure = 0.0;  ///< the preview that chooses it
+  double estimator = 0.0; ///< its pipeline and light caches
   double write = 0.0;
 };
 
@@ -30,7 +31,7 @@ struct RenderRecord {
   const render::MethodChoice& choice;
   film::ErrorEstimate error;
   film::PngReport png;
-  double plannedBytes = 0.0;  ///< on the device, before anything was uploaded
+  double plannedBytes = 0.0; ///< on the device, for grids, light caches and the estimator, as they were chosen
   Timings timings;
   std::vector<std::string> notes;
 };

@@ -4,6 +4,7 @@
 #include "app/frames.h"
 #include "app/quantities.h"
 #include "film/film.h"
+#include "gpu_scene/cell_grids.h"
 #include "gpu_scene/volumes.h"
 #include "scene/fields.h"
 #include "scene/load.h"
@@ -131,6 +132,9 @@ SceneSummary summariseScene(const scene::Scene& scene) {
     summary.grids.push_back({grid.name, volume::storageName(grid.storage), grid.deviceBytes(), grid.worldBounds()});
   }
   summary.deviceBytes = volumes.deviceBytes();
+  const gpu_scene::PackedMedia media =
+      gpu_scene::packMedia(firstFrame, volumes, gpu_scene::sceneBounds(firstFrame, volumes).centre());
+  summary.cellBytes = gpu_scene::plannedCellBytes(media, volumes);
   summary.filmBytes = double(scene.film.size.x) * scene.film.size.y * sizeof(film::PixelState);
   summary.notes = volumes.notes;
   return summary;
@@ -165,8 +169,9 @@ std::string toText(const SceneSummary& summary) {
   for (const std::string& note : summary.notes) {
     line("note", note);
   }
-  line("memory", fmt::format("{} for grids on the device, {} for the film on the host", inBytes(summary.deviceBytes),
-                             inBytes(summary.filmBytes)));
+  line("memory", fmt::format("{} for grids on the device ({} with --estimator tracking) beside light caches, {} for "
+                             "the film on the host",
+                             inBytes(summary.cellBytes), inBytes(summary.deviceBytes), inBytes(summary.filmBytes)));
   return text;
 }
 
@@ -182,6 +187,7 @@ nlohmann::ordered_json toJson(const SceneSummary& summary) {
     json["grids"].push_back({{"name", grid.name}, {"storage", grid.storage}, {"device_bytes", grid.bytes}});
   }
   json["device_bytes"] = summary.deviceBytes;
+  json["march_device_bytes"] = summary.cellBytes;
   json["film_bytes"] = summary.filmBytes;
   json["notes"] = summary.notes;
   return json;

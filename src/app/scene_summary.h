@@ -26,7 +26,8 @@ struct SceneSummary {
   scene::Scene scene;
   std::vector<SceneFile> files;
   std::vector<PlannedGrid> grids; ///< each once, however many media use it
-  double deviceBytes = 0.0;       ///< of the grids
+  double deviceBytes = 0.0;       ///< of the grids as tracking reads them
+  double cellBytes = 0.0;         ///< of the grids as the march reads them, light caches aside
   double filmBytes = 0.0;         ///< of the film's sums in the host's memory
   std::vector<std::string> notes;
 };

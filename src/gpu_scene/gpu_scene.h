@@ -49,6 +49,8 @@ public:
   const PackedMedia& media() const { return packed_; }
   const std::vector<interop::PointLight>& pointLights() const { return lights_.points; }
   const std::vector<interop::DistantLight>& distantLights() const { return lights_.distant; }
+  /// Of the environment maps among the distant lights, in their order.
+  const std::vector<light::EnvironmentTable>& environmentTables() const { return lights_.tables; }
   const Features& features() const { return features_; }
   /// Homogeneous media and lights: what a stage of the trace pass loops over.
   std::uint32_t loopCount() const { return loopCount_; }

@@ -61,7 +61,7 @@ struct CacheReport {
   double seconds = 0.0; ///< to build
 };
 
-/// Runs batches of samples on the device. Borrows the device and the scene.
+/// Runs batches of samples on the device. Borrows the device, the scene and the volumes.
 class Estimator {
 public:
   virtual ~Estimator() = default;
@@ -77,6 +77,8 @@ public:
   virtual CacheReport caches() const { return {}; }
 
   const Totals& totals() const { return totals_; }
+  /// Starts counting anew.
+  void resetTotals() { totals_ = {}; }
 
 protected:
   Totals totals_;

@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/march_scene.h"
 
+#include "render/sky_set.h"
+
 #include <algorithm>
-#include <numeric>
 
 namespace tyndall::render {
 namespace {
 
 using interop::kNoCache;
 
-/// Cached directions of environments: the cells of a square of this edge on the octahedral map.
-constexpr std::uint32_t kSectorEdge = 4;
-constexpr double kSectorSpacing = 2.0; // voxels: the direction is off by more than the lattice
-/// A disc wider than this may be narrower seen by the phase function than by its own sampler: 1 - cos(2 degrees).
-constexpr float kWideDisc = 6e-4f;
+constexpr double kSkySpacing = 4.0; // voxels, of the caches of sky directions
+/// Of the memory for caches, what those of sky directions may take.
+constexpr double kSkyShare = 0.5;
 /// Point lights that every ray takes where there are too many to take them all.
 constexpr std::uint32_t kStrongestPoints = 3;
 /// Pieces of homogeneous media, and of cells that are dense, on one ray.
@@ -23,16 +22,10 @@ bool isEnvironment(const interop::DistantLight& light) {
   return light.kind == interop::kDistantConstant || light.kind == interop::kDistantMap;
 }
 
-bool wantsPhaseBeam(const interop::DistantLight& light) {
-  return isEnvironment(light) || (light.kind == interop::kDistantDisc && light.oneMinusCos > kWideDisc);
-}
-
-/// The direction in the middle of cell (x, y) of the octahedral square; shaders/core/octahedral.glsl.
-glm::dvec3 sectorDirection(std::uint32_t x, std::uint32_t y) {
-  const glm::dvec2 place = 2.0 * (glm::dvec2(x, y) + 0.5) / double(kSectorEdge) - 1.0;
-  const double z = 1.0 - std::abs(place.x) - std::abs(place.y);
-  const glm::dvec2 folded(std::copysign(1.0 - std::abs(place.y), place.x), std::copysign(1.0 - std::abs(place.x), place.y));
-  return glm::normalize(glm::dvec3(z >= 0.0 ? place : folded, z));
+/// One per sun, one for all environments.
+std::size_t distantBeams(const std::vector<interop::DistantLight>& distant) {
+  const auto environments = static_cast<std::size_t>(std::count_if(distant.begin(), distant.end(), isEnvironment));
+  return distant.size() - environments + std::min<std::size_t>(environments, 1);
 }
 
 std::uint32_t pointBeams(std::size_t points, std::size_t others) {
@@ -40,53 +33,26 @@ std::uint32_t pointBeams(std::size_t points, std::size_t others) {
   return points <= room ? static_cast<std::uint32_t>(points) : std::min(kStrongestPoints, room - 1);
 }
 
-class Planner {
-public:
-  explicit Planner(const gpu_scene::GpuScene& scene) : scene_(scene) {}
-
-  MarchPlan run() {
-    const std::vector<interop::DistantLight>& distant = scene_.distantLights();
-    const bool phaseBeam = std::any_of(distant.begin(), distant.end(), wantsPhaseBeam);
-    interop::MarchScene& header = plan_.header;
-    header.phaseBeam = phaseBeam ? 1 : 0;
-    header.pointBeams = pointBeams(scene_.pointLights().size(), distant.size() + header.phaseBeam);
-    header.distantGroup = header.pointBeams;
-    header.sectorGroup = header.pointBeams + static_cast<std::uint32_t>(distant.size());
-    const bool environment = std::any_of(distant.begin(), distant.end(), isEnvironment);
-    header.sectorEdge = environment ? kSectorEdge : 0;
-    header.maxSteps = mostPieces(scene_.media());
-    plan_.groups = header.sectorGroup + header.sectorEdge * header.sectorEdge;
-    for (std::uint32_t i = 0; i < distant.size(); ++i) {
-      if (!isEnvironment(distant[i])) {
-        want(header.distantGroup + i, {0, 0.0, true, glm::dvec3(distant[i].toLight), 0.0});
-      }
-    }
-    for (std::uint32_t i = 0; i < header.pointBeams; ++i) {
-      want(i, {0, 0.0, false, glm::dvec3(scene_.pointLights()[i].position), 0.0});
-    }
-    for (std::uint32_t i = 0; i < header.sectorEdge * header.sectorEdge; ++i) {
-      want(header.sectorGroup + i, {0, 0.0, true, sectorDirection(i % kSectorEdge, i / kSectorEdge), kSectorSpacing});
-    }
-    return std::move(plan_);
-  }
-
-private:
-  /// A cache of one light for each density grid.
-  void want(std::uint32_t group, LightCacheRequest request) {
-    const gpu_scene::PackedMedia& media = scene_.media();
-    for (const interop::Medium& medium : media.media) {
-      if (medium.densityGrid != interop::kNoGrid) {
-        request.grid = medium.densityGrid;
-        request.sigmaT = double(medium.sigmaT);
-        plan_.wanted.push_back(request);
-        plan_.place.push_back(group * static_cast<std::uint32_t>(media.placements.size()) + medium.densityGrid);
-      }
+/// A cache of one light for each density grid, to be placed in the table of caches.
+void want(const gpu_scene::PackedMedia& media, std::uint32_t group, LightCacheRequest request,
+          std::vector<LightCacheRequest>& wanted, std::vector<std::uint32_t>& place) {
+  for (const interop::Medium& medium : media.media) {
+    if (medium.densityGrid != interop::kNoGrid) {
+      request.grid = medium.densityGrid;
+      request.sigmaT = double(medium.sigmaT);
+      wanted.push_back(request);
+      place.push_back(group * static_cast<std::uint32_t>(media.placements.size()) + medium.densityGrid);
     }
   }
+}
 
-  const gpu_scene::GpuScene& scene_;
-  MarchPlan plan_;
-};
+/// Enters plans into the table; requests without a plan have no cache.
+void enter(const std::vector<LightCachePlan>& plans, const std::vector<std::uint32_t>& place,
+           std::vector<std::uint32_t>& table) {
+  for (std::size_t i = 0; i < plans.size(); ++i) {
+    table[place[plans[i].request]] = static_cast<std::uint32_t>(i);
+  }
+}
 
 } // namespace
 
@@ -99,32 +65,85 @@ std::uint32_t mostPieces(const gpu_scene::PackedMedia& media) {
   return 2 * cells + kOtherPieces;
 }
 
-std::uint32_t mostBeams(const gpu_scene::GpuScene& scene) {
-  const interop::MarchScene header = planMarch(scene).header;
-  const std::size_t drawn = scene.pointLights().size() > header.pointBeams ? 1 : 0;
-  return header.pointBeams + header.phaseBeam + static_cast<std::uint32_t>(scene.distantLights().size() + drawn);
+MarchPlan planMarch(const gpu_scene::GpuScene& scene) {
+  const std::vector<interop::DistantLight>& distant = scene.distantLights();
+  MarchPlan plan;
+  plan.sky = std::any_of(distant.begin(), distant.end(), isEnvironment);
+  interop::MarchScene& header = plan.header;
+  const std::size_t points = scene.pointLights().size();
+  header.pointBeams = pointBeams(points, distantBeams(distant));
+  header.distantGroup = header.pointBeams;
+  header.skyGroup = header.pointBeams + static_cast<std::uint32_t>(distant.size());
+  header.maxSteps = mostPieces(scene.media());
+  const SkyShares shares = skyShares(scene);
+  header.skyLightShare = shares.light;
+  header.skyPhaseShare = shares.phase;
+  plan.beams = header.pointBeams + static_cast<std::uint32_t>(distantBeams(distant)) + (points > header.pointBeams ? 1 : 0);
+  plan.groups = header.skyGroup + (plan.sky ? interop::kSkyDirections : 0);
+  for (std::uint32_t i = 0; i < distant.size(); ++i) {
+    if (!isEnvironment(distant[i])) {
+      want(scene.media(), header.distantGroup + i, {0, 0.0, true, glm::dvec3(distant[i].toLight), 0.0}, plan.wanted, plan.place);
+    }
+  }
+  for (std::uint32_t i = 0; i < header.pointBeams; ++i) {
+    want(scene.media(), i, {0, 0.0, false, glm::dvec3(scene.pointLights()[i].position), 0.0}, plan.wanted, plan.place);
+  }
+  return plan;
 }
 
-MarchPlan planMarch(const gpu_scene::GpuScene& scene) { return Planner(scene).run(); }
-
 MarchScene::MarchScene(const gpu::Device& device, const gpu_scene::GpuScene& scene,
-                       const gpu_scene::VolumeSet& volumes, double cacheBytes) {
-  MarchPlan plan = planMarch(scene);
-  const std::vector<LightCachePlan> caches = planLightCaches(plan.wanted, scene.media(), volumes, cacheBytes);
-  caches_ = LightCaches(device, scene.cells(), caches);
-  std::vector<std::uint32_t> cacheOf(std::size_t(plan.groups) * scene.media().placements.size(), kNoCache);
-  for (std::size_t i = 0; i < caches.size(); ++i) {
-    cacheOf[plan.place[caches[i].request]] = static_cast<std::uint32_t>(i);
+                       const gpu_scene::VolumeSet& volumes, double cacheBytes)
+    : scene_(scene), volumes_(volumes), plan_(planMarch(scene)), skyBytes_(plan_.sky ? kSkyShare * cacheBytes : 0.0),
+      caches_(device, scene.cells()), skyCaches_(device, scene.cells()), wanted_(plan_.wanted.size()),
+      places_(std::size_t(plan_.groups) * scene.media().placements.size(), kNoCache),
+      cacheOf_(device, std::max<std::size_t>(places_.size(), 1), gpu::Memory::Device),
+      sky_(device, interop::kSkyDirections, gpu::Memory::Device), header_(device, 1, gpu::Memory::Device) {
+  const std::vector<LightCachePlan> plans = planLightCaches(plan_.wanted, scene.media(), volumes, cacheBytes - skyBytes_);
+  caches_.build(plans);
+  enter(plans, plan_.place, places_);
+  interop::MarchScene& header = plan_.header;
+  header.grids = scene.cells().ptr();
+  header.caches = caches_.ptr();
+  header.cacheOf = cacheOf_.ptr();
+  header.sky = sky_.ptr();
+  header.centre = glm::vec3(scene.bounds().centre() - scene.centre());
+  header.radius = static_cast<float>(0.5 * glm::length(scene.bounds().size()));
+  upload();
+}
+
+void MarchScene::upload() {
+  if (!places_.empty()) {
+    cacheOf_.write(places_);
   }
-  cacheOf_ = gpu::Buffer<std::uint32_t>(device, std::span<const std::uint32_t>(cacheOf));
-  plan.header.grids = scene.cells().ptr();
-  plan.header.caches = caches_.ptr();
-  plan.header.cacheOf = cacheOf_.ptr();
-  plan.header.centre = glm::vec3(scene.bounds().centre() - scene.centre());
-  plan.header.radius = static_cast<float>(0.5 * glm::length(scene.bounds().size()));
-  header_ = gpu::Buffer<interop::MarchScene>(device, std::span<const interop::MarchScene>(&plan.header, 1));
-  report_ = {static_cast<std::uint32_t>(caches.size()), static_cast<std::uint32_t>(plan.wanted.size() - caches.size()),
-             caches_.bytes(), caches_.buildSeconds()};
+  header_.write(std::span<const interop::MarchScene>(&plan_.header, 1));
+}
+
+void MarchScene::begin(std::uint32_t seed, std::uint32_t batch) {
+  if (!plan_.sky || batch_ == std::pair(seed, batch)) {
+    return;
+  }
+  batch_ = {seed, batch};
+  const std::vector<glm::vec3> directions = skyDirections(seed, batch);
+  sky_.write(directions);
+  std::vector<LightCacheRequest> wanted;
+  std::vector<std::uint32_t> place;
+  for (std::uint32_t k = 0; k < interop::kSkyDirections; ++k) {
+    want(scene_.media(), plan_.header.skyGroup + k, {0, 0.0, true, glm::dvec3(directions[k]), kSkySpacing}, wanted, place);
+  }
+  const std::vector<LightCachePlan> plans = planLightCaches(wanted, scene_.media(), volumes_, skyBytes_);
+  skyCaches_.build(plans);
+  wanted_ = plan_.wanted.size() + wanted.size();
+  const std::size_t first = std::size_t(plan_.header.skyGroup) * scene_.media().placements.size();
+  std::fill(places_.begin() + std::ptrdiff_t(first), places_.end(), kNoCache);
+  enter(plans, place, places_);
+  plan_.header.skyCaches = skyCaches_.ptr();
+  upload();
+}
+
+CacheReport MarchScene::caches() const {
+  const std::size_t count = caches_.size() + skyCaches_.size();
+  return {static_cast<std::uint32_t>(count), static_cast<std::uint32_t>(wanted_ - count),
+          caches_.bytes() + skyCaches_.bytes(), caches_.buildSeconds() + skyCaches_.buildSeconds()};
 }
 
 } // namespace tyndall::render

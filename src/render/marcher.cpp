@@ -14,18 +14,19 @@ constexpr std::uint32_t kMostIterations = 50000;
 
 } // namespace
 
-passes::MarchSpec marchSpecFor(const gpu_scene::GpuScene& scene, const EstimatorOptions& options) {
+passes::MarchSpec marchSpecFor(const gpu_scene::GpuScene& scene, const MarchPlan& plan, const EstimatorOptions& options) {
   const gpu_scene::Features& features = scene.features();
   passes::MarchSpec spec;
   spec.kPhaseMask = features.phaseMask;
   spec.kSlots = static_cast<std::uint32_t>(scene.media().placements.size());
-  spec.kBeams = mostBeams(scene);
+  spec.kBeams = plan.beams;
   spec.kHomogeneousMedia = scene.media().homogeneousCount;
   spec.kGridMedia = static_cast<std::uint32_t>(scene.media().media.size()) - spec.kHomogeneousMedia;
   spec.kGridEmission = features.gridEmission;
   spec.kPointLights = features.pointLights;
   spec.kDistantLights = features.distantDeltas || features.distantAreas;
   spec.kDistantAreas = features.distantAreas;
+  spec.kSky = plan.sky;
   spec.kOrthographic = features.orthographic;
   spec.kBackground = features.background;
   spec.kAovs = options.aovs;
@@ -38,7 +39,7 @@ Marcher::Marcher(const gpu::Device& device, const gpu_scene::GpuScene& scene, co
                  const EstimatorOptions& options)
     : scene_(scene), samplesPerDispatch_(std::clamp(kMostIterations / mostPieces(scene.media()), 1u,
                                                     std::uint32_t(film::kBatchSamples))),
-      march_(device, scene, volumes, options.cacheBytes), spec_(marchSpecFor(scene, options)), pass_(device, spec_),
+      march_(device, scene, volumes, options.cacheBytes), spec_(marchSpecFor(scene, march_.plan(), options)), pass_(device, spec_),
       pixels_(device, chunkFor(device, options), gpu::Memory::Host), sums_(device, pixels_.size(), gpu::Memory::Host),
       counters_(device, 1, gpu::Memory::Host) {
   TYNDALL_CHECK(scene.layout() == gpu_scene::GridLayout::Cells);
@@ -74,6 +75,7 @@ std::span<const interop::PixelSums> Marcher::run(std::span<const std::uint32_t> 
   inputs.counters = counters_.ptr();
   inputs.count = static_cast<std::uint32_t>(pixels.size());
   inputs.seed = seed;
+  march_.begin(seed, samples.first / film::kBatchSamples);
   for (std::uint32_t done = 0; done < samples.count; done += inputs.sampleCount) {
     inputs.firstSample = samples.first + done;
     inputs.sampleCount = std::min(samplesPerDispatch_, samples.count - done);

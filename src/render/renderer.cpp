@@ -34,16 +34,15 @@ film::Window wholeOr(const film::Window& crop, const glm::uvec2& size) {
 class Session {
 public:
   Session(const gpu::Device& device, const scene::Scene& scene, const gpu_scene::VolumeSet& volumes,
-          const gpu_scene::GpuScene& gpuScene, const RenderOptions& options, RenderReport& report)
-      : scene_(scene), options_(options), report_(report), estimator_(makeEstimator(device, gpuScene, volumes, options.estimator)),
-        device_(device.info().name), film_(startFilm(device)), coverage_(mediaCoverage(scene, volumes)),
-        order_(dispatchOrder(film_.window())) {
+          Estimator& estimator, const RenderOptions& options, RenderReport& report)
+      : scene_(scene), options_(options), report_(report), estimator_(&estimator), device_(device.info().name),
+        film_(startFilm(device)), coverage_(mediaCoverage(scene, volumes)), order_(dispatchOrder(film_.window())) {
+    estimator_->resetTotals();
     report_.mediaPixels = static_cast<std::size_t>(
         std::count_if(order_.begin(), order_.end(), [&](std::uint32_t pixel) { return covered(pixel); }));
     report_.backgroundPixels = order_.size() - report_.mediaPixels;
     report_.pipeline = estimator_->pipeline();
     report_.kernelBytes = estimator_->kernelBytes();
-    report_.caches = estimator_->caches();
     for (const auto& [key, text] : film_.metadata) {
       if (key.starts_with(film::kCountPrefix)) {
         countsBefore_[key] = std::stoull(text);
@@ -77,6 +76,7 @@ public:
     }
     noteCounts();
     report_.totals = estimator_->totals();
+    report_.caches = estimator_->caches(); // those of environments are made batch by batch
     report_.seconds = secondsSince(start_);
     return std::move(film_);
   }
@@ -250,8 +250,9 @@ private:
   const scene::Scene& scene_;
   const RenderOptions& options_;
   RenderReport& report_;
-  Clock::time_point start_ = Clock::now();
-  std::unique_ptr<Estimator> estimator_;
+  Clock::time_point start_ = Clock::now() - std::chrono::duration_cast<Clock::duration>(
+                                                std::chrono::duration<double>(options_.secondsBefore));
+  Estimator* estimator_;
   std::string device_;
   Film film_;
   std::vector<bool> coverage_;
@@ -268,8 +269,17 @@ private:
 
 Film renderFilm(const gpu::Device& device, const scene::Scene& scene, const gpu_scene::VolumeSet& volumes,
                 const gpu_scene::GpuScene& gpuScene, const RenderOptions& options, RenderReport& report) {
+  const Clock::time_point start = Clock::now();
+  const std::unique_ptr<Estimator> estimator = makeEstimator(device, gpuScene, volumes, options.estimator);
+  RenderOptions timed = options;
+  timed.secondsBefore += secondsSince(start);
+  return renderFilm(device, scene, volumes, *estimator, timed, report);
+}
+
+Film renderFilm(const gpu::Device& device, const scene::Scene& scene, const gpu_scene::VolumeSet& volumes,
+                Estimator& estimator, const RenderOptions& options, RenderReport& report) {
   report = RenderReport{}; // one that says why an earlier render stopped would stop this one
-  return Session(device, scene, volumes, gpuScene, options, report).run();
+  return Session(device, scene, volumes, estimator, options, report).run();
 }
 
 } // namespace tyndall::render

@@ -29,7 +29,8 @@ struct RenderOptions {
   film::Window crop; ///< empty: the whole image
   StopRule stop;
   std::uint32_t seed = 0;
-  EstimatorOptions estimator;
+  EstimatorOptions estimator; ///< of the one that renderFilm makes; not read where one is handed over
+  double secondsBefore = 0.0; ///< spent on making the estimator that is handed over; counts as rendering
   std::filesystem::path checkpoint; ///< empty: none are written; the last one when interrupted or resuming
   double checkpointSeconds = 20.0;
   bool resume = false;   ///< go on from `checkpoint` if it is there
@@ -55,5 +56,9 @@ struct RenderReport {
 /// @throws Error if the checkpoint belongs to another scene, size or seed.
 film::Film renderFilm(const gpu::Device& device, const scene::Scene& scene, const gpu_scene::VolumeSet& volumes,
                       const gpu_scene::GpuScene& gpuScene, const RenderOptions& options, RenderReport& report);
+
+/// The same with an estimator that was made before; the report's totals and seconds are those of this film.
+film::Film renderFilm(const gpu::Device& device, const scene::Scene& scene, const gpu_scene::VolumeSet& volumes,
+                      Estimator& estimator, const RenderOptions& options, RenderReport& report);
 
 } // namespace tyndall::render

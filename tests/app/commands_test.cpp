@@ -96,6 +96,8 @@ TEST_F(Commands, InfoPlansASceneAndNamesItsFiles) {
   const nlohmann::json info = parsed(run("info --json ball.json"));
   EXPECT_EQ(info["files"][0]["bytes"], std::filesystem::file_size(inputs() / "plain.vdb"));
   EXPECT_GT(info["device_bytes"], 0);
+  // Blocks of 9^3 floats per brick, whose own 8^3 voxels are stored in 1 to 4 bytes for tracking.
+  EXPECT_GT(info["march_device_bytes"], info["device_bytes"]);
   EXPECT_EQ(info["film_bytes"], 640 * 480 * sizeof(film::PixelState));
 }
 

@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <unistd.h>
 
@@ -38,8 +39,11 @@ TestScene everything() {
   return test;
 }
 
-render::RenderOptions options(std::uint32_t samples = 40) {
+constexpr render::Method kMethods[] = {render::Method::Tracking, render::Method::March};
+
+render::RenderOptions options(render::Method method, std::uint32_t samples = 40) {
   render::RenderOptions result;
+  result.estimator.method = method;
   result.stop.samples = samples;
   result.seed = 7;
   result.estimator.aovs = true;
@@ -72,12 +76,23 @@ std::uint64_t hashOf(const film::Film& film) {
   return hash;
 }
 
-std::uint64_t referenceHash() {
-  static const std::uint64_t hash = hashOf(renderFilm(everything(), options()));
-  return hash;
+std::uint64_t referenceHash(render::Method method) {
+  static std::map<render::Method, std::uint64_t> hashes;
+  if (!hashes.contains(method)) {
+    hashes[method] = hashOf(renderFilm(everything(), options(method)));
+  }
+  return hashes[method];
 }
 
-TEST(Determinism, DispatchSizeHasNoSay) {
+/// Each test for both methods.
+class Determinism : public testing::TestWithParam<render::Method> {
+protected:
+  static render::RenderOptions options() { return test::options(GetParam()); }
+  static std::uint64_t referenceHash() { return test::referenceHash(GetParam()); }
+};
+INSTANTIATE_TEST_SUITE_P(, Determinism, testing::ValuesIn(kMethods), [](const auto& one) { return std::string(render::methodName(one.param)); });
+
+TEST_P(Determinism, DispatchSizeHasNoSay) {
   for (const std::uint32_t chunk : {64u, 1000u, 16384u}) {
     render::RenderOptions chunked = options();
     chunked.estimator.chunkPixels = chunk;
@@ -88,19 +103,20 @@ TEST(Determinism, DispatchSizeHasNoSay) {
   EXPECT_NE(hashOf(renderFilm(everything(), other)), referenceHash());
 }
 
-TEST(Determinism, StepBoundHasNoSay) {
+/// Of tracking alone: the march has no such bound.
+TEST(StepBound, HasNoSay) {
   for (const std::uint32_t bound : {8u, 100u, 1u << 20}) {
-    render::RenderOptions bounded = options();
+    render::RenderOptions bounded = options(render::Method::Tracking);
     bounded.estimator.stepBound = bound;
     render::RenderReport report;
-    EXPECT_EQ(hashOf(renderFilm(everything(), bounded, &report)), referenceHash()) << bound;
+    EXPECT_EQ(hashOf(renderFilm(everything(), bounded, &report)), referenceHash(render::Method::Tracking)) << bound;
     if (bound < 1000) {
       EXPECT_GT(report.totals.resumed, 0u) << bound;
     }
   }
 }
 
-TEST(Determinism, CropsMergeToTheWhole) {
+TEST_P(Determinism, CropsMergeToTheWhole) {
   const film::Film whole = renderFilm(everything(), options());
   std::vector<std::pair<std::string, film::Film>> parts;
   for (const film::Window& window : {film::Window{{0, 0}, {17, 24}}, film::Window{{17, 0}, {40, 11}}, film::Window{{17, 11}, {40, 24}}}) {
@@ -111,7 +127,7 @@ TEST(Determinism, CropsMergeToTheWhole) {
   EXPECT_EQ(hashOf(film::merge(parts)), hashOf(whole));
 }
 
-TEST(Determinism, ResumedIsUninterrupted) {
+TEST_P(Determinism, ResumedIsUninterrupted) {
   const auto file = std::filesystem::temp_directory_path() / fmt::format("tyndall-resume-{}.exr", ::getpid());
   std::filesystem::remove(file);
   std::atomic<bool> stop = false;
@@ -133,11 +149,11 @@ TEST(Determinism, ResumedIsUninterrupted) {
 }
 
 /// Prints the hash, for the next test's children.
-TEST(Determinism, HashOfTheReference) { std::printf("film-hash %016llx\n", static_cast<unsigned long long>(referenceHash())); }
+TEST_P(Determinism, HashOfTheReference) { std::printf("film-hash %016llx\n", static_cast<unsigned long long>(referenceHash())); }
 
-std::string hashInChild(int threads) {
+std::string hashInChild(render::Method method, int threads) {
   const std::string program = std::filesystem::read_symlink("/proc/self/exe");
-  const std::string command = fmt::format("LP_NUM_THREADS={} '{}' --gtest_filter=Determinism.HashOfTheReference", threads, program);
+  const std::string command = fmt::format("LP_NUM_THREADS={} '{}' --gtest_filter=Determinism.HashOfTheReference/{}", threads, program, render::methodName(method));
   FILE* pipe = ::popen(command.c_str(), "r");
   std::string result;
   std::array<char, 256> line{};
@@ -151,10 +167,10 @@ std::string hashInChild(int threads) {
 }
 
 /// On a CPU device; elsewhere the variable means nothing and both are the same run.
-TEST(Determinism, ThreadsHaveNoSay) {
+TEST_P(Determinism, ThreadsHaveNoSay) {
   const std::string expected = fmt::format("{:016x}", referenceHash());
-  EXPECT_EQ(hashInChild(1), expected);
-  EXPECT_EQ(hashInChild(2), expected);
+  EXPECT_EQ(hashInChild(GetParam(), 1), expected);
+  EXPECT_EQ(hashInChild(GetParam(), 2), expected);
 }
 
 } // namespace

@@ -39,11 +39,13 @@ TEST(EmissiveSlab, HomogeneousHasTheClosedForm) {
     TestScene test = view();
     test.box(glm::dvec3(-1.0), glm::dvec3(1.0), sigmaT, 0.0).emission = linear(3.0);
     const double length = sigmaT > 0.0 ? -std::expm1(-2.0 * sigmaT) / sigmaT : 2.0;
-    const Moments moments = renderMoments(test.scene, test.volumes, {.replicates = 8});
-    EXPECT_AGREES(imageTest(moments, 3.0 * length, 0)) << sigmaT;
-    EXPECT_AGREES(imageTest(moments, 1.5 * length, 1)) << sigmaT;
-    EXPECT_AGREES(imageTest(moments, 0.75 * length, 2)) << sigmaT;
-    EXPECT_DIFFERS(imageTest(moments, 3.01 * length, 0)) << sigmaT; // planted: 0.3 % off
+    for (const MomentOptions& options : eachMethod({.replicates = 8})) {
+      const Moments moments = renderMoments(test.scene, test.volumes, options);
+      EXPECT_AGREES(imageTest(moments, 3.0 * length, 0)) << sigmaT << nameOf(options);
+      EXPECT_AGREES(imageTest(moments, 1.5 * length, 1)) << sigmaT << nameOf(options);
+      EXPECT_AGREES(imageTest(moments, 0.75 * length, 2)) << sigmaT << nameOf(options);
+      EXPECT_DIFFERS(imageTest(moments, 3.01 * length, 0)) << sigmaT << nameOf(options); // planted: 0.3 % off
+    }
   }
 }
 
@@ -52,10 +54,12 @@ TEST(EmissiveSlab, TwoHomogeneousHalvesAddUp) {
   TestScene test = view();
   test.box(glm::dvec3(-1.0), {1.0, 1.0, 0.2}, 0.7, 0.0).emission = linear(3.0);
   test.box({-1.0, -1.0, 0.2}, glm::dvec3(1.0), 0.7, 0.0).emission = linear(3.0);
-  EXPECT_AGREES(imageTest(renderMoments(test.scene, test.volumes), 3.0 * -std::expm1(-1.4) / 0.7));
+  for (const MomentOptions& options : eachMethod()) {
+    EXPECT_AGREES(imageTest(renderMoments(test.scene, test.volumes, options), 3.0 * -std::expm1(-1.4) / 0.7)) << nameOf(options);
+  }
 }
 
-/// Emission and density of their own grids against quadrature, scattering in between, with both trackers.
+/// Emission and density of their own grids against quadrature, scattering in between.
 TEST(EmissiveGrid, AgreesWithQuadrature) {
   for (const bool tied : {false, true}) {
     TestScene test = view();
@@ -67,14 +71,11 @@ TEST(EmissiveGrid, AgreesWithQuadrature) {
     test.sun({0.1, -1.0, -0.5}, 1.0);
     const OracleScene oracle(test.scene, test.volumes, {.relative = 1e-6});
     const auto reference = oracle.picture([&](const OracleRay& ray) { return oracle.radiance(ray); }, 3);
-    for (const bool delta : {false, true}) {
-      MomentOptions options{.replicates = 128, .samples = 32};
-      options.estimator.deltaTracking = delta;
+    for (const MomentOptions& options : eachTracker({.replicates = 128, .samples = 32})) {
       const Moments moments = renderMoments(test.scene, test.volumes, options);
-      EXPECT_AGREES(imageTest(moments, meanOf(reference), 0, 1e-4)) << "tied " << tied << " delta " << delta;
-      EXPECT_AGREES(pixelTest(moments, reference, 0, 1e-4)) << "tied " << tied << " delta " << delta;
-      MomentOptions bad = options;
-      bad.estimator.plantedBug = interop::kBugHalfVoxel; // shifts the density against the emission
+      EXPECT_AGREES(imageTest(moments, meanOf(reference), 0, 1e-4)) << "tied " << tied << nameOf(options);
+      EXPECT_AGREES(pixelTest(moments, reference, 0, 1e-4)) << "tied " << tied << nameOf(options);
+      const MomentOptions bad = withBug(options, interop::kBugHalfVoxel); // shifts the density against the emission
       EXPECT_DIFFERS(imageTest(renderMoments(test.scene, test.volumes, bad), meanOf(reference), 0, 1e-4));
     }
   }
@@ -93,13 +94,15 @@ TEST(IsothermalCavity, HasTheRadianceOfABlackbody) {
   TestScene grids = view();
   grids.grid(constantGrid(12, glm::dvec3(-0.9), glm::dvec3(0.9), 1.0), 8.0, 0.0);
   grids.emissionGrid(constantGrid(5, glm::dvec3(-2.0), glm::dvec3(2.0), kKelvin), emission);
-  for (int channel = 0; channel < 3; ++channel) {
-    // The homogeneous box scatters 40 % away: what it emits is (1 - albedo) B.
-    EXPECT_AGREES(imageTest(renderMoments(homogeneous.scene, homogeneous.volumes), 0.6 * expected[channel], channel, 1e-3)) << channel;
-    // 1e-3: the stated error of the blackbody table.
-    const Moments moments = renderMoments(grids.scene, grids.volumes, {.replicates = 128});
-    EXPECT_AGREES(imageTest(moments, expected[channel], channel, 1e-3)) << channel;
-    EXPECT_DIFFERS(imageTest(moments, 1.05 * expected[channel], channel, 1e-3)) << channel; // planted: 5 % off
+  for (const MomentOptions& options : eachMethod({.replicates = 128})) {
+    const Moments one = renderMoments(homogeneous.scene, homogeneous.volumes, options);
+    const Moments two = renderMoments(grids.scene, grids.volumes, options);
+    for (int channel = 0; channel < 3; ++channel) {
+      // The homogeneous box scatters 40 % away: what it emits is (1 - albedo) B. 1e-3: the blackbody table's stated error.
+      EXPECT_AGREES(imageTest(one, 0.6 * expected[channel], channel, 1e-3)) << channel << nameOf(options);
+      EXPECT_AGREES(imageTest(two, expected[channel], channel, 1e-3)) << channel << nameOf(options);
+      EXPECT_DIFFERS(imageTest(two, 1.05 * expected[channel], channel, 1e-3)) << channel << nameOf(options); // planted: 5 % off
+    }
   }
 }
 
@@ -108,15 +111,17 @@ TEST(Heat, GlowsWhereThereIsNoDensity) {
   const volume::BrickGrid density = constantGrid(6, {-0.5, -0.5, -3.0}, {0.5, 0.5, -2.0}, 1.0);
   test.grid(density, 0.5, 0.0);
   test.emissionGrid(constantGrid(6, glm::dvec3(-0.5), glm::dvec3(0.5), 1.0), linear(1.0));
-  // Trapezoid: 1 unit inside and half a voxel (0.1) on either side; the density lies behind it.
-  const Moments moments = renderMoments(test.scene, test.volumes);
-  EXPECT_AGREES(imageTest(moments, 1.2));
   TestScene alone = view(); // "none": no density at all
   alone.grid(density);
   alone.volumes.uses[0].density.reset();
   alone.emissionGrid(constantGrid(6, glm::dvec3(-0.5), glm::dvec3(0.5), 1.0), linear(1.0));
-  EXPECT_AGREES(imageTest(renderMoments(alone.scene, alone.volumes), 1.2));
-  EXPECT_DIFFERS(imageTest(moments, 1.19)); // planted
+  for (const MomentOptions& options : eachMethod()) {
+    // Trapezoid: 1 unit inside and half a voxel (0.1) on either side; the density lies behind it.
+    const Moments moments = renderMoments(test.scene, test.volumes, options);
+    EXPECT_AGREES(imageTest(moments, 1.2)) << nameOf(options);
+    EXPECT_AGREES(imageTest(renderMoments(alone.scene, alone.volumes, options), 1.2)) << nameOf(options);
+    EXPECT_DIFFERS(imageTest(moments, 1.19)) << nameOf(options); // planted
+  }
 }
 
 /// Planck's law is not linear: the temperature must be interpolated before it.
@@ -129,9 +134,10 @@ TEST(TemperatureRamp, IsInterpolatedBeforePlanck) {
   test.emissionGrid(gridOf(glm::ivec3(5), glm::ivec3(0), shape.worldFromIndex, kelvin), emission);
   const OracleScene oracle(test.scene, test.volumes, {.relative = 1e-6});
   const auto reference = oracle.picture([&](const OracleRay& ray) { return oracle.radiance(ray); }, 2);
-  EXPECT_AGREES(imageTest(renderMoments(test.scene, test.volumes, {.replicates = 64}), meanOf(reference), 0, 1e-3));
-  MomentOptions bad{.replicates = 64};
-  bad.estimator.plantedBug = interop::kBugOneTapBlackbody;
+  for (const MomentOptions& options : eachMethod({.replicates = 64})) {
+    EXPECT_AGREES(imageTest(renderMoments(test.scene, test.volumes, options), meanOf(reference), 0, 1e-3)) << nameOf(options);
+  }
+  const MomentOptions bad = withBug({.replicates = 64}, interop::kBugOneTapBlackbody); // the march has no such lookups
   EXPECT_DIFFERS(imageTest(renderMoments(test.scene, test.volumes, bad), meanOf(reference), 0, 1e-3));
 }
 

@@ -10,6 +10,9 @@
 namespace tyndall::test {
 namespace {
 
+/// rRMSE that the march reaches in some 100 samples of the puff.
+constexpr double kMarchTarget = 0.02;
+
 TestScene puff() {
   TestScene test({12, 12});
   test.perspective({0.0, 0.0, 4.0}, {0.0, 0.0, 0.0}, 40.0);
@@ -29,11 +32,11 @@ TestScene fog() {
 }
 
 /// sqrt of the mean reported variance, and of the mean variance over seeds: both over covered pixels and colours.
-std::pair<double, double> reportedAndTrue(const TestScene& test, std::uint32_t samples) {
+std::pair<double, double> reportedAndTrue(const TestScene& test, std::uint32_t samples, render::Method method) {
   constexpr int kSeeds = 50;
   std::vector<std::vector<double>> values(std::size_t(test.scene.film.size.x) * test.scene.film.size.y);
   double reported = 0.0;
-  FilmRunner runner(test);
+  FilmRunner runner(test, {.method = method});
   std::string stoppedBy;
   for (std::uint32_t seed = 0; seed < kSeeds; ++seed) {
     const film::Film film = runner.run({.samples = samples, .seconds = {}, .error = {}}, seed, stoppedBy);
@@ -51,41 +54,47 @@ std::pair<double, double> reportedAndTrue(const TestScene& test, std::uint32_t s
 
 TEST(ErrorBars, AgreeWithTheSpreadOfFiftySeeds) {
   for (const TestScene& test : {puff(), fog()}) {
-    const auto [reported, spread] = reportedAndTrue(test, 128);
-    EXPECT_NEAR(reported / spread, 1.0, 0.1);
+    for (const render::Method method : {render::Method::Tracking, render::Method::March}) {
+      const auto [reported, spread] = reportedAndTrue(test, 128, method);
+      EXPECT_NEAR(reported / spread, 1.0, 0.1) << render::methodName(method);
+    }
   }
+}
+
+/// Sums of squares over covered pixels and colours.
+double rRmse(const film::Film& film, const Moments& truth) {
+  double squares = 0.0;
+  double norm = 0.0;
+  for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
+    if (1.0 - truth.mean(i, kTransmittance) > 0.01) {
+      for (int channel = 0; channel < 3; ++channel) {
+        const double difference = film.mean(i, channel) - truth.mean(i, channel);
+        squares += difference * difference;
+        norm += truth.mean(i, channel) * truth.mean(i, channel);
+      }
+    }
+  }
+  return std::sqrt(squares / norm);
 }
 
 /// Stopped by error: the true error is below the target in 90 % of runs, and the mean over runs is that of runs of
 /// fixed length.
-TEST(StoppingByError, KeepsItsPromiseWithoutBias) {
-  const TestScene test = puff();
-  const std::size_t count = std::size_t(test.scene.film.size.x) * test.scene.film.size.y;
-  const Moments truth = renderMoments(test.scene, test.volumes, {.replicates = 64, .samples = 256, .firstSeed = 900000});
-  constexpr double kTarget = 0.25; // some 500 samples
-  FilmRunner runner(test);
+void expectPromiseKept(render::Method method, double target, const Moments& truth) {
+  SCOPED_TRACE(render::methodName(method));
+  FilmRunner runner(puff(), {.method = method});
   const int runs = 40 * static_cast<int>(effort());
   int kept = 0;
   int byError = 0;
   std::vector<double> means;
   for (int run = 0; run < runs; ++run) {
     std::string stoppedBy;
-    const film::Film film = runner.run({.samples = 1u << 14, .seconds = {}, .error = kTarget}, static_cast<std::uint32_t>(run), stoppedBy);
+    const film::Film film = runner.run({.samples = 1u << 14, .seconds = {}, .error = target}, static_cast<std::uint32_t>(run), stoppedBy);
     byError += stoppedBy == "error";
-    double squares = 0.0;
-    double norm = 0.0;
+    kept += rRmse(film, truth) <= target;
     double mean = 0.0;
-    for (std::size_t i = 0; i < count; ++i) {
-      mean += film.mean(i, film::R) / double(count);
-      if (1.0 - truth.mean(i, kTransmittance) > 0.01) {
-        for (int channel = 0; channel < 3; ++channel) {
-          const double difference = film.mean(i, channel) - truth.mean(i, channel);
-          squares += difference * difference;
-          norm += truth.mean(i, channel) * truth.mean(i, channel);
-        }
-      }
+    for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
+      mean += film.mean(i, film::R) / double(truth.pixels.size());
     }
-    kept += std::sqrt(squares / norm) <= kTarget;
     means.push_back(mean);
   }
   EXPECT_EQ(byError, runs);
@@ -97,6 +106,19 @@ TEST(StoppingByError, KeepsItsPromiseWithoutBias) {
     mean *= 0.97; // planted: what stopping on one's own samples does
   }
   EXPECT_LT(film::welchTest(film::summarise(means), truth.image(0)).p, kFamilyRate);
+}
+
+TEST(StoppingByError, KeepsItsPromiseWithoutBias) {
+  const TestScene test = puff();
+  const Moments truth = renderMoments(test.scene, test.volumes, {.replicates = 64, .samples = 256, .firstSeed = 900000});
+  expectPromiseKept(render::Method::Tracking, 0.25, truth); // some 500 samples
+}
+
+TEST(StoppingByError, KeepsItsPromiseInTheMarch) {
+  const TestScene test = puff();
+  MomentOptions options{.replicates = 32, .samples = 256, .firstSeed = 900000};
+  options.estimator.method = render::Method::March;
+  expectPromiseKept(render::Method::March, kMarchTarget, renderMoments(test.scene, test.volumes, options));
 }
 
 } // namespace

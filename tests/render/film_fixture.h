@@ -34,6 +34,7 @@ public:
       for (std::size_t i = 0; i < pixels_.size(); ++i) {
         film::BatchSums values;
         std::copy(std::begin(sums[i].moments), std::end(sums[i].moments), values.moments.begin());
+        std::copy(std::begin(sums[i].extras), std::end(sums[i].extras), values.extras.begin());
         film.add((pixels_[i] & 0xffffu) + size_.x * (pixels_[i] >> 16), *batch, count, values);
       }
     }

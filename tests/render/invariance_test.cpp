@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What must not change a picture (docs/theory.md A10), and agreement of the two trackers.
+// What must not change a picture (docs/theory.md A10), and agreement of the methods on files.
 #include "support/render_fixture.h"
 #include "support/render_scenes.h"
 
@@ -11,20 +11,6 @@
 
 namespace tyndall::test {
 namespace {
-
-constexpr int kCount = 14;
-
-double puff(const glm::dvec3& u) {
-  const glm::dvec3 p = 2.0 * u / double(kCount - 1) - 1.0;
-  return std::max(0.0, 1.0 - glm::dot(p, p)) * (1.5 + std::sin(5.0 * p.x) * std::cos(4.0 * p.y + p.z));
-}
-
-/// A puff without symmetry in [-1, 1]^3; index `first` is its first voxel.
-volume::BrickGrid puffGrid(const glm::ivec3& first = glm::ivec3(0), volume::Storage storage = volume::Storage::Float) {
-  const double voxel = 2.0 / (kCount - 1);
-  const glm::dmat4 worldFromIndex = glm::scale(glm::translate(glm::dmat4(1.0), glm::dvec3(-1.0) - voxel * glm::dvec3(first)), glm::dvec3(voxel));
-  return gridOf(glm::ivec3(kCount), first, worldFromIndex, [first](const glm::ivec3& index) { return puff(glm::dvec3(index - first)); }, storage);
-}
 
 /// Camera and lights of all these scenes.
 TestScene stage(double size = 1.0, const glm::dvec3& centre = glm::dvec3(0.0)) {
@@ -41,14 +27,30 @@ TestScene puffScene(const volume::BrickGrid& grid, double density = 1.0) {
   return test;
 }
 
-/// Independent seeds for the second of two configurations.
-Moments render(const TestScene& test, std::uint32_t firstSeed, std::uint32_t replicates = 64) {
-  return renderMoments(test.scene, test.volumes, {.replicates = replicates, .firstSeed = firstSeed});
-}
+/// One scene by each method: what others are compared with.
+class Pictures {
+public:
+  explicit Pictures(const TestScene& test) {
+    for (const MomentOptions& options : eachMethod({.replicates = 64})) {
+      moments_.push_back(renderMoments(test.scene, test.volumes, options));
+    }
+  }
 
-Verdict compare(const TestScene& a, const TestScene& b, double tolerance = 2e-6) {
-  return tileTest(render(a, 1), render(b, 100001), tolerance);
-}
+  void expectSame(const TestScene& other, double tolerance = 2e-6) const { compare(other, true, tolerance); }
+  void expectDifferent(const TestScene& other) const { compare(other, false, 2e-6); }
+
+private:
+  void compare(const TestScene& other, bool same, double tolerance) const {
+    std::size_t method = 0;
+    // Seeds of their own, so that the two are independent.
+    for (const MomentOptions& options : eachMethod({.replicates = 64, .firstSeed = 100001})) {
+      const Verdict verdict = tileTest(moments_[method++], renderMoments(other.scene, other.volumes, options), tolerance);
+      EXPECT_EQ(verdict.agrees(), same) << nameOf(options) << ": " << verdict.text();
+    }
+  }
+
+  std::vector<Moments> moments_; // by method
+};
 
 TEST(Invariance, OfDensityTimesSize) {
   constexpr double kFactor = 37.0;
@@ -56,9 +58,10 @@ TEST(Invariance, OfDensityTimesSize) {
   volume::BrickGrid grid = puffGrid();
   grid.worldFromIndex = glm::scale(glm::dmat4(1.0), glm::dvec3(1.0 / kFactor)) * grid.worldFromIndex;
   small.grid(grid, kFactor, 0.9).phase = henyeyGreenstein(0.3);
-  EXPECT_AGREES(compare(puffScene(puffGrid()), small));
+  const Pictures pictures(puffScene(puffGrid()));
+  pictures.expectSame(small);
   small.scene.media[0].densityScale *= 1.05; // planted
-  EXPECT_DIFFERS(compare(puffScene(puffGrid()), small));
+  pictures.expectDifferent(small);
 }
 
 TEST(Invariance, OfAHomogeneousBoxCutInTwo) {
@@ -67,9 +70,10 @@ TEST(Invariance, OfAHomogeneousBoxCutInTwo) {
   TestScene halves = stage();
   halves.box(glm::dvec3(-1.0), {0.25, 1.0, 1.0}, 0.8, 0.9);
   halves.box({0.25, -1.0, -1.0}, glm::dvec3(1.0), 0.8, 0.9);
-  EXPECT_AGREES(compare(whole, halves));
+  const Pictures pictures(whole);
+  pictures.expectSame(halves);
   halves.scene.media[0].box.max.x = 0.3; // planted: they overlap
-  EXPECT_DIFFERS(compare(whole, halves));
+  pictures.expectDifferent(halves);
 }
 
 /// Two media of half the density in the same place: sums of Poisson processes.
@@ -79,19 +83,19 @@ TEST(Invariance, OfOverlappingHalves) {
   TestScene twoHomogeneous = stage();
   twoHomogeneous.box(glm::dvec3(-1.0), glm::dvec3(1.0), 0.5, 0.9);
   twoHomogeneous.box(glm::dvec3(-1.0), glm::dvec3(1.0), 0.3, 0.9);
-  EXPECT_AGREES(compare(homogeneous, twoHomogeneous)) << "\ntwo homogeneous";
+  Pictures(homogeneous).expectSame(twoHomogeneous);
 
-  const TestScene grid = puffScene(puffGrid());
+  const Pictures grid(puffScene(puffGrid()));
   TestScene twoGrids = puffScene(puffGrid(), 0.5);
   twoGrids.grid(puffGrid(), 0.5, 0.9).phase = henyeyGreenstein(0.3);
-  EXPECT_AGREES(compare(grid, twoGrids)) << "\ntwo grids";
+  grid.expectSame(twoGrids);
   twoGrids.scene.media[1].phase = henyeyGreenstein(-0.3); // planted: the other medium's phase function
-  EXPECT_DIFFERS(compare(grid, twoGrids));
+  grid.expectDifferent(twoGrids);
 }
 
 /// Each of a grid and a homogeneous medium around it taken apart into two.
 TEST(Invariance, OfAGridInAHomogeneousMedium) {
-  const double voxel = 2.0 / (kCount - 1);
+  const double voxel = 2.0 / (kPuffVoxels - 1);
   const glm::dvec3 edge(1.0 + voxel);
   TestScene one = puffScene(puffGrid());
   one.box(-edge, edge, 0.4, 0.9).phase = henyeyGreenstein(0.3);
@@ -99,9 +103,10 @@ TEST(Invariance, OfAGridInAHomogeneousMedium) {
   three.box(-edge, edge, 0.2, 0.9).phase = henyeyGreenstein(0.3);
   three.box(-edge, edge, 0.2, 0.9).phase = henyeyGreenstein(0.3);
   three.grid(puffGrid(), 0.3, 0.9).phase = henyeyGreenstein(0.3);
-  EXPECT_AGREES(compare(one, three));
+  const Pictures pictures(one);
+  pictures.expectSame(three);
   three.scene.media[3].densityScale = 0.2; // planted
-  EXPECT_DIFFERS(compare(one, three));
+  pictures.expectDifferent(three);
 }
 
 TEST(Invariance, OfTheOrderOfMedia) {
@@ -113,9 +118,10 @@ TEST(Invariance, OfTheOrderOfMedia) {
   b.sphere({0.3, 0.2, 0.1}, 0.5, 0.7, 0.3);
   b.grid(puffGrid(), 1.0, 0.6);
   b.box(glm::dvec3(-1.0), {1.0, 0.0, 1.0}, 0.8, 0.9);
-  EXPECT_AGREES(compare(a, b));
+  const Pictures pictures(a);
+  pictures.expectSame(b);
   b.scene.media[0].albedo = glm::dvec3(0.4); // planted
-  EXPECT_DIFFERS(compare(a, b));
+  pictures.expectDifferent(b);
 }
 
 TEST(Invariance, OfAGridTurnedByNinetyDegrees) {
@@ -125,30 +131,33 @@ TEST(Invariance, OfAGridTurnedByNinetyDegrees) {
   turn[1][0] = 1.0;
   turn[0][1] = -1.0;
   turn[2][2] = 1.0;
-  turn[3] = glm::dvec4(0.0, kCount - 1.0, 0.0, 1.0);
-  const volume::BrickGrid turned = gridOf(glm::ivec3(kCount), glm::ivec3(0), upright.worldFromIndex * turn,
-                                          [](const glm::ivec3& index) { return puff(glm::dvec3(index.y, kCount - 1 - index.x, index.z)); });
-  EXPECT_AGREES(compare(puffScene(upright), puffScene(turned)));
+  turn[3] = glm::dvec4(0.0, kPuffVoxels - 1.0, 0.0, 1.0);
+  const volume::BrickGrid turned = gridOf(glm::ivec3(kPuffVoxels), glm::ivec3(0), upright.worldFromIndex * turn,
+                                          [](const glm::ivec3& index) { return puffDensity(glm::dvec3(index.y, kPuffVoxels - 1 - index.x, index.z)); });
+  const Pictures pictures(puffScene(upright));
+  pictures.expectSame(puffScene(turned));
   volume::BrickGrid wrong = turned;
   wrong.worldFromIndex = upright.worldFromIndex; // planted: the field turned, its transform not
-  EXPECT_DIFFERS(compare(puffScene(upright), puffScene(wrong)));
+  pictures.expectDifferent(puffScene(wrong));
 }
 
 TEST(Invariance, OfIndexOffsets) {
-  const TestScene reference = puffScene(puffGrid());
+  const Pictures pictures(puffScene(puffGrid()));
   for (const glm::ivec3& first : {glm::ivec3(-1, -9, -1000), glm::ivec3(5, 100000, 7)}) {
-    EXPECT_AGREES(compare(reference, puffScene(puffGrid(first)))) << first.x;
+    SCOPED_TRACE(first.x);
+    pictures.expectSame(puffScene(puffGrid(first)));
   }
   volume::BrickGrid wrong = puffGrid({3, 3, 3});
   wrong.worldFromIndex = puffGrid().worldFromIndex; // planted: an offset that the transform does not know
-  EXPECT_DIFFERS(compare(reference, puffScene(wrong)));
+  pictures.expectDifferent(puffScene(wrong));
 }
 
 TEST(Invariance, OfStorageWithinItsStatedError) {
-  const TestScene reference = puffScene(puffGrid());
+  const Pictures pictures(puffScene(puffGrid()));
   for (const auto storage : {volume::Storage::Unorm8, volume::Storage::Half}) {
     // Optical depths agree to 1 % (docs/scene-format.md): so do pictures of optical depth about 1.
-    EXPECT_AGREES(compare(reference, puffScene(puffGrid(glm::ivec3(0), storage)), 0.01)) << volume::storageName(storage);
+    SCOPED_TRACE(volume::storageName(storage));
+    pictures.expectSame(puffScene(puffGrid(glm::ivec3(0), storage)), 0.01);
   }
 }
 
@@ -158,9 +167,10 @@ TEST(Invariance, OfTheDistanceFromTheOrigin) {
   volume::BrickGrid grid = puffGrid();
   grid.worldFromIndex = glm::translate(glm::dmat4(1.0), far) * grid.worldFromIndex;
   moved.grid(grid, 1.0, 0.9).phase = henyeyGreenstein(0.3);
-  EXPECT_AGREES(compare(puffScene(puffGrid()), moved));
+  const Pictures pictures(puffScene(puffGrid()));
+  pictures.expectSame(moved);
   moved.scene.camera.position.x += 0.05; // planted: what float would make of 1e5 + 1
-  EXPECT_DIFFERS(compare(puffScene(puffGrid()), moved));
+  pictures.expectDifferent(moved);
 }
 
 /// The medium's own transform and the grid's are one map.
@@ -172,10 +182,51 @@ TEST(Invariance, OfWhereTheTransformIs) {
   grid.worldFromIndex = map * grid.worldFromIndex;
   TestScene b = stage();
   b.grid(grid, 1.0, 0.9);
-  EXPECT_AGREES(compare(a, b));
+  Pictures(a).expectSame(b);
 }
 
-/// Weighted walk and delta tracking share no distance sampling.
+/// The puff's voxels dealt out to two grids of other sizes and bricks: each cell has one of its own or two.
+TEST(Invariance, OfComplementaryGrids) {
+  const auto share = [](bool first, const glm::ivec3& size, const glm::ivec3& from) {
+    return gridOf(size, from, puffGrid().worldFromIndex, [first](const glm::ivec3& index) {
+      return (index.x + 2 * index.y - index.z < 9) == first ? puffDensity(glm::dvec3(index)) : 0.0;
+    });
+  };
+  TestScene both = puffScene(share(true, glm::ivec3(kPuffVoxels), glm::ivec3(0)));
+  both.grid(share(false, {kPuffVoxels, kPuffVoxels - 2, kPuffVoxels}, {0, 2, 0}), 1.0, 0.9).phase = henyeyGreenstein(0.3);
+  const Pictures pictures(puffScene(puffGrid()));
+  pictures.expectSame(both);
+  both.volumes.grids[1] = share(false, {kPuffVoxels, kPuffVoxels - 4, kPuffVoxels}, {0, 4, 0}); // planted: some voxels are lost
+  pictures.expectDifferent(both);
+}
+
+/// A file cut in two by clip boxes between two layers of voxels, each rounded outwards to its last own one.
+TEST(Invariance, OfAVolumeCutInTwoByClipBoxes) {
+  const volume::BrickGrid whole = volume::loadGrid("volumes/plume.vdb", {.storage = volume::Storage::Float});
+  const Bounds3 bounds = whole.worldBounds();
+  const double size = glm::length(bounds.size());
+  const int last = (whole.indexMin.y + whole.indexMax.y) / 2; // layer of the first part
+  const auto layer = [&](double y) { return glm::dvec3(whole.worldFromIndex * glm::dvec4(0.0, y, 0.0, 1.0)).y; };
+  const auto part = [&](double low, double high) {
+    return volume::loadGrid("volumes/plume.vdb", {.storage = volume::Storage::Float,
+                                                  .clip = Bounds3{{bounds.min.x - size, low, bounds.min.z - size},
+                                                                  {bounds.max.x + size, high, bounds.max.z + size}}});
+  };
+  TestScene stage({16, 16});
+  stage.perspective(bounds.centre() + size * glm::dvec3(0.3, 0.2, 1.2), bounds.centre(), 45.0);
+  stage.sun({0.4, -1.0, -0.6}, 2.0);
+  TestScene one = stage;
+  one.grid(whole, 8.0 / size, 0.95);
+  TestScene two = stage;
+  two.grid(part(bounds.min.y - size, layer(last - 0.3)), 8.0 / size, 0.95);
+  two.grid(part(layer(last + 1.3), bounds.max.y + size), 8.0 / size, 0.95);
+  const Pictures pictures(one);
+  pictures.expectSame(two);
+  two.volumes.grids[1] = part(layer(last + 2.3), bounds.max.y + size); // planted: one layer is lost
+  pictures.expectDifferent(two);
+}
+
+/// Weighted walk, delta tracking and march share no distance sampling.
 TEST(Trackers, AgreeOnTheProjectsVolumes) {
   for (const char* name : {"volumes/cloud.vdb", "volumes/plume.vdb"}) {
     const volume::BrickGrid grid = volume::loadGrid(name, {});
@@ -186,14 +237,15 @@ TEST(Trackers, AgreeOnTheProjectsVolumes) {
     test.sun({0.4, -1.0, -0.6}, 2.0, 0.5);
     test.constant(0.2);
     test.grid(grid, 8.0 / size, 0.95).phase = henyeyGreenstein(0.5);
-    MomentOptions weighted{.replicates = 16};
-    MomentOptions delta{.replicates = 32, .firstSeed = 100001};
-    delta.estimator.deltaTracking = true;
-    const Moments reference = renderMoments(test.scene, test.volumes, weighted);
-    EXPECT_AGREES(tileTest(reference, renderMoments(test.scene, test.volumes, delta))) << name;
+    const Moments reference = renderMoments(test.scene, test.volumes, {.replicates = 16});
     TestScene dense = test;
     dense.scene.media[0].densityScale *= 1.1; // planted
-    EXPECT_DIFFERS(tileTest(reference, renderMoments(dense.scene, dense.volumes, delta))) << name;
+    MomentOptions delta{.replicates = 32, .firstSeed = 100001};
+    delta.estimator.deltaTracking = true;
+    for (const MomentOptions& options : {delta, eachMethod({.firstSeed = 100001}).back()}) {
+      EXPECT_AGREES(tileTest(reference, renderMoments(test.scene, test.volumes, options))) << name << nameOf(options);
+      EXPECT_DIFFERS(tileTest(reference, renderMoments(dense.scene, dense.volumes, options))) << name << nameOf(options);
+    }
   }
 }
 

@@ -36,9 +36,7 @@ TestScene airlight(const AirlightRow& row, double verticalFov = 1e-6) {
   return test;
 }
 
-Verdict airlightVerdict(const AirlightRow& row, std::uint32_t bug) {
-  MomentOptions options;
-  options.estimator.plantedBug = bug;
+Verdict airlightVerdict(const AirlightRow& row, const MomentOptions& options) {
   const TestScene test = airlight(row);
   return imageTest(renderMoments(test.scene, test.volumes, options), row.radiance, 0, 2e-5);
 }
@@ -52,15 +50,19 @@ TEST(Airlight, QuadratureReproducesTheTable) {
 }
 
 TEST(Airlight, SingleRayOfEveryRow) {
-  for (const AirlightRow& row : kRows) {
-    EXPECT_AGREES(airlightVerdict(row, interop::kBugNone)) << "\nsigma_t " << row.sigmaT << " g " << row.g << " h " << row.h;
+  for (const MomentOptions& options : eachMethod()) {
+    for (const AirlightRow& row : kRows) {
+      EXPECT_AGREES(airlightVerdict(row, options)) << nameOf(options) << "\nsigma_t " << row.sigmaT << " g " << row.g << " h " << row.h;
+    }
   }
 }
 
 TEST(Airlight, PlantedBugsAreSeen) {
-  EXPECT_DIFFERS(airlightVerdict(kRows[1], interop::kBugPhaseSign));
-  EXPECT_DIFFERS(airlightVerdict(kRows[0], interop::kBugJacobian));
-  EXPECT_DIFFERS(airlightVerdict(kRows[0], interop::kBugNoInverse4Pi));
+  for (const MomentOptions& options : eachMethod()) {
+    EXPECT_DIFFERS(airlightVerdict(kRows[1], withBug(options, interop::kBugPhaseSign))) << nameOf(options);
+    EXPECT_DIFFERS(airlightVerdict(kRows[0], withBug(options, interop::kBugJacobian))) << nameOf(options);
+    EXPECT_DIFFERS(airlightVerdict(kRows[0], withBug(options, interop::kBugNoInverse4Pi))) << nameOf(options);
+  }
 }
 
 /// Distances conditioned on a collision forgive a plain log at row 8's optical depth of 0.01. A million
@@ -69,24 +71,27 @@ TEST(Airlight, ThinnestAirNeedsAnAccurateLog) {
   AirlightRow row{1e-10, 1.0, 0.0, 10.0, 0.5, 100.0, 0.0};
   const TestScene test = airlight(row);
   row.radiance = OracleScene(test.scene, test.volumes).radiance({glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 1.0)});
-  EXPECT_AGREES(airlightVerdict(row, interop::kBugNone));
-  EXPECT_DIFFERS(airlightVerdict(row, interop::kBugPlainLog));
+  for (const MomentOptions& options : eachMethod()) {
+    EXPECT_AGREES(airlightVerdict(row, options)) << nameOf(options);
+  }
+  EXPECT_DIFFERS(airlightVerdict(row, withBug({}, interop::kBugPlainLog))); // the march draws no distances
 }
 
 TEST(Airlight, PictureAgreesWithQuadratureOverEveryFootprint) {
   TestScene test = airlight({0.3, 0.9, 0.4, 4.0, 0.7, 8.0, 0.0}, 35.0);
   const OracleScene oracle(test.scene, test.volumes, {.relative = 1e-8});
   const auto reference = oracle.picture([&](const OracleRay& ray) { return oracle.radiance(ray); }, 8);
-  const Moments moments = renderMoments(test.scene, test.volumes);
-  EXPECT_AGREES(pixelTest(moments, reference, 0, 1e-4)); // 1e-4: of the footprint's quadrature near the light
-  EXPECT_AGREES(imageTest(moments, meanOf(reference), 0, 2e-5));
-  MomentOptions bad;
-  bad.estimator.plantedBug = interop::kBugPhaseSign;
-  EXPECT_DIFFERS(imageTest(renderMoments(test.scene, test.volumes, bad), meanOf(reference), 0, 2e-5));
+  for (const MomentOptions& options : eachMethod()) {
+    const Moments moments = renderMoments(test.scene, test.volumes, options);
+    EXPECT_AGREES(pixelTest(moments, reference, 0, 1e-4)) << nameOf(options); // 1e-4: of the footprint's quadrature near the light
+    EXPECT_AGREES(imageTest(moments, meanOf(reference), 0, 2e-5)) << nameOf(options);
+    const MomentOptions bad = withBug(options, interop::kBugPhaseSign);
+    EXPECT_DIFFERS(imageTest(renderMoments(test.scene, test.volumes, bad), meanOf(reference), 0, 2e-5)) << nameOf(options);
+  }
 }
 
 /// A row's medium as a grid of constant density around the camera, the light and the ray up to tMax.
-TEST(Airlight, GridOfConstantDensityWithBothTrackers) {
+TEST(Airlight, GridOfConstantDensity) {
   for (const std::size_t index : {0u, 1u, 3u, 6u}) {
     const AirlightRow& row = kRows[index];
     TestScene test({16, 16});
@@ -96,11 +101,8 @@ TEST(Airlight, GridOfConstantDensityWithBothTrackers) {
     test.point({row.h, 0.0, row.d});
     const OracleScene oracle(test.scene, test.volumes, {.relative = 1e-8});
     const double reference = oracle.radiance({glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 1.0)});
-    for (const bool delta : {false, true}) {
-      MomentOptions options;
-      options.replicates = 64;
-      options.estimator.deltaTracking = delta;
-      EXPECT_AGREES(imageTest(renderMoments(test.scene, test.volumes, options), reference, 0, 2e-5)) << "\nrow " << index + 1 << " delta " << delta;
+    for (const MomentOptions& options : eachTracker({.replicates = 64})) {
+      EXPECT_AGREES(imageTest(renderMoments(test.scene, test.volumes, options), reference, 0, 2e-5)) << "\nrow " << index + 1 << nameOf(options);
     }
   }
 }
@@ -130,13 +132,14 @@ TEST(DirectionalLightOnABox, HomogeneousAgreesInEveryPixel) {
     TestScene test = litBox();
     test.box(glm::dvec3(-1.0), glm::dvec3(1.0), sigmaT, 0.8);
     const auto reference = slabReference(test.scene.film.size, sigmaT, 0.8, 3.0);
-    const Moments moments = renderMoments(test.scene, test.volumes);
-    EXPECT_AGREES(pixelTest(moments, reference)) << sigmaT;
-    EXPECT_AGREES(imageTest(moments, meanOf(reference))) << sigmaT;
-    EXPECT_AGREES(imageTest(moments, std::exp(-2.0 * sigmaT), kTransmittance)) << sigmaT;
-    MomentOptions bad;
-    bad.estimator.plantedBug = interop::kBugNoInverse4Pi;
-    EXPECT_DIFFERS(pixelTest(renderMoments(test.scene, test.volumes, bad), reference)) << sigmaT;
+    for (const MomentOptions& options : eachMethod()) {
+      const Moments moments = renderMoments(test.scene, test.volumes, options);
+      EXPECT_AGREES(pixelTest(moments, reference)) << sigmaT << nameOf(options);
+      EXPECT_AGREES(imageTest(moments, meanOf(reference))) << sigmaT << nameOf(options);
+      EXPECT_AGREES(imageTest(moments, std::exp(-2.0 * sigmaT), kTransmittance)) << sigmaT << nameOf(options);
+      const MomentOptions bad = withBug(options, interop::kBugNoInverse4Pi);
+      EXPECT_DIFFERS(pixelTest(renderMoments(test.scene, test.volumes, bad), reference)) << sigmaT << nameOf(options);
+    }
   }
 }
 
@@ -152,18 +155,17 @@ TEST(DirectionalLightOnABox, GridAgreesInEveryPixelStorageAndTracker) {
   for (const auto storage : {volume::Storage::Unorm8, volume::Storage::Half, volume::Storage::Float}) {
     TestScene test = first;
     test.volumes.grids[0] = constantGrid(11, glm::dvec3(-0.9), glm::dvec3(0.9), 1.0, storage);
-    for (const bool delta : {false, true}) {
-      MomentOptions options;
-      options.estimator.deltaTracking = delta;
+    for (const MomentOptions& options : eachTracker()) {
       const Moments moments = renderMoments(test.scene, test.volumes, options);
-      EXPECT_AGREES(pixelTest(moments, reference, 0, 3e-4)) << volume::storageName(storage) << delta;
-      EXPECT_AGREES(imageTest(moments, meanOf(reference), 0, 1e-4)) << volume::storageName(storage) << delta;
-      EXPECT_AGREES(pixelTest(moments, transmittance, kTransmittance, 1e-4)) << volume::storageName(storage) << delta;
+      EXPECT_AGREES(pixelTest(moments, reference, 0, 3e-4)) << volume::storageName(storage) << nameOf(options);
+      EXPECT_AGREES(imageTest(moments, meanOf(reference), 0, 1e-4)) << volume::storageName(storage) << nameOf(options);
+      EXPECT_AGREES(pixelTest(moments, transmittance, kTransmittance, 1e-4)) << volume::storageName(storage) << nameOf(options);
     }
   }
-  MomentOptions bad;
-  bad.estimator.plantedBug = interop::kBugHalfVoxel;
-  EXPECT_DIFFERS(pixelTest(renderMoments(first.scene, first.volumes, bad), reference, 0, 3e-4));
+  for (const MomentOptions& options : eachMethod()) {
+    const MomentOptions bad = withBug(options, interop::kBugHalfVoxel);
+    EXPECT_DIFFERS(pixelTest(renderMoments(first.scene, first.volumes, bad), reference, 0, 3e-4)) << nameOf(options);
+  }
 }
 
 TEST(PhaseFunctions, EveryModelAgreesWithQuadratureInASlab) {
@@ -180,11 +182,12 @@ TEST(PhaseFunctions, EveryModelAgreesWithQuadratureInASlab) {
     test.point({2.5, 1.5, 0.5}, 5.0);
     const OracleScene oracle(test.scene, test.volumes, {.relative = 1e-6});
     const auto reference = oracle.picture([&](const OracleRay& ray) { return oracle.radiance(ray); }, 4);
-    EXPECT_AGREES(imageTest(renderMoments(test.scene, test.volumes, {.replicates = 128, .samples = 32}), meanOf(reference), 0, 1e-4)) << "\nphase " << static_cast<unsigned>(phase.id);
-    if (phase.id != PhaseId::Isotropic && phase.id != PhaseId::Rayleigh) {
-      MomentOptions bad{.replicates = 64};
-      bad.estimator.plantedBug = interop::kBugPhaseSign;
-      EXPECT_DIFFERS(imageTest(renderMoments(test.scene, test.volumes, bad), meanOf(reference), 0, 1e-4));
+    for (const MomentOptions& options : eachMethod({.replicates = 128, .samples = 32})) {
+      EXPECT_AGREES(imageTest(renderMoments(test.scene, test.volumes, options), meanOf(reference), 0, 1e-4)) << nameOf(options) << "\nphase " << static_cast<unsigned>(phase.id);
+      if (phase.id != PhaseId::Isotropic && phase.id != PhaseId::Rayleigh) {
+        const MomentOptions bad = withBug(options, interop::kBugPhaseSign);
+        EXPECT_DIFFERS(imageTest(renderMoments(test.scene, test.volumes, bad), meanOf(reference), 0, 1e-4)) << nameOf(options);
+      }
     }
   }
 }

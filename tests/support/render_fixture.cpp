@@ -70,13 +70,14 @@ double standardErrorOf(const film::SampleSummary& summary) { return std::sqrt(su
 /// Keeps the least likely of a family.
 class Family {
 public:
-  void add(std::size_t index, double p, double t, double bias) {
+  void add(std::size_t index, double p, double t, double bias, double resolution = 0.0) {
     ++count_;
     if (p < smallest_ || count_ == 1) {
       smallest_ = p;
       verdict_.worst = index;
       verdict_.worstT = t;
       verdict_.bias = bias;
+      verdict_.resolution = resolution;
     }
   }
   Verdict verdict() const {
@@ -112,6 +113,30 @@ struct TileSums {
 std::uint32_t effort() {
   const char* text = std::getenv("TYNDALL_TEST_EFFORT");
   return text == nullptr ? 1u : std::max(1u, static_cast<std::uint32_t>(std::strtoul(text, nullptr, 10)));
+}
+
+std::vector<MomentOptions> eachMethod(const MomentOptions& options) {
+  MomentOptions march = options;
+  march.estimator.method = render::Method::March;
+  march.replicates = std::max(8u, options.replicates / 4);
+  return {options, march};
+}
+
+std::vector<MomentOptions> eachTracker(const MomentOptions& options) {
+  std::vector<MomentOptions> result = eachMethod(options);
+  MomentOptions delta = options;
+  delta.estimator.deltaTracking = true;
+  result.push_back(delta);
+  return result;
+}
+
+MomentOptions withBug(MomentOptions options, std::uint32_t bug) {
+  options.estimator.plantedBug = bug;
+  return options;
+}
+
+std::string nameOf(const MomentOptions& options) {
+  return options.estimator.deltaTracking ? "delta tracking" : render::methodName(options.estimator.method);
 }
 
 film::SampleSummary Moments::image(int channel) const {
@@ -214,7 +239,8 @@ Verdict tileTest(const Moments& a, const Moments& b, double tolerance) {
       const TileSums& sum = sums[tile];
       double t = 0.0;
       const double p = differenceP(sum.difference, tolerance * sum.scale, std::sqrt(sum.variance), sum.degrees(), t);
-      family.add(tile, p, t, sum.scale > 0.0 ? sum.difference / sum.scale : 0.0);
+      const double inverse = sum.scale > 0.0 ? 1.0 / sum.scale : 0.0;
+      family.add(tile, p, t, sum.difference * inverse, std::sqrt(sum.variance) * inverse);
     }
   }
   return family.verdict();

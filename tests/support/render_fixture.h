@@ -33,6 +33,16 @@ struct MomentOptions {
   std::vector<bool> skip{};         ///< pixels (x fastest) that are not rendered and stay 0; empty: none
 };
 
+/// `options` for every method: as they are for the tracking, with a quarter of the replicates (8 at least) for the
+/// march, whose pictures vary far less.
+std::vector<MomentOptions> eachMethod(const MomentOptions& options = {});
+/// The same with both trackers of the tracking: weighted walk and delta tracking.
+std::vector<MomentOptions> eachTracker(const MomentOptions& options = {});
+MomentOptions withBug(MomentOptions options, std::uint32_t bug);
+/// "march", "tracking" or "delta tracking".
+std::string nameOf(const MomentOptions& options);
+inline bool marches(const MomentOptions& options) { return options.estimator.method == render::Method::March; }
+
 /// Mean and standard error over the replicates, for every pixel (x fastest) of the whole image.
 /// Channels R, G, B (background included) and T.
 struct Moments {

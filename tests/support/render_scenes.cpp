@@ -3,6 +3,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <cmath>
 #include <random>
 
 namespace tyndall::test {
@@ -110,6 +111,17 @@ volume::BrickGrid spikyGrid(const glm::ivec3& size, unsigned seed, volume::Stora
     return ((index.x >> 3) + (index.y >> 3) + (index.z >> 3)) % 2 == 0 ? 0.0 : 0.05 * v;
   };
   return gridOf(size, glm::ivec3(-5, 3, -17), worldFromIndex, value, storage);
+}
+
+double puffDensity(const glm::dvec3& index) {
+  const glm::dvec3 p = 2.0 * index / double(kPuffVoxels - 1) - 1.0;
+  return std::max(0.0, 1.0 - glm::dot(p, p)) * (1.5 + std::sin(5.0 * p.x) * std::cos(4.0 * p.y + p.z));
+}
+
+volume::BrickGrid puffGrid(const glm::ivec3& first, volume::Storage storage) {
+  const double voxel = 2.0 / (kPuffVoxels - 1);
+  const glm::dmat4 worldFromIndex = glm::scale(glm::translate(glm::dmat4(1.0), glm::dvec3(-1.0) - voxel * glm::dvec3(first)), glm::dvec3(voxel));
+  return gridOf(glm::ivec3(kPuffVoxels), first, worldFromIndex, [first](const glm::ivec3& index) { return puffDensity(glm::dvec3(index - first)); }, storage);
 }
 
 std::vector<NamedMap> affineMaps() {

@@ -48,6 +48,12 @@ volume::BrickGrid constantGrid(int count, const glm::dvec3& low, const glm::dvec
 /// Random voxels: a few spikes among small values and empty regions. The same for the same seed.
 volume::BrickGrid spikyGrid(const glm::ivec3& size, unsigned seed, volume::Storage storage, const glm::dmat4& worldFromIndex);
 
+/// A puff without symmetry in [-1, 1]^3, depth about 1 through its middle; index `first` is its first voxel.
+inline constexpr int kPuffVoxels = 14;
+volume::BrickGrid puffGrid(const glm::ivec3& first = glm::ivec3(0), volume::Storage storage = volume::Storage::Float);
+/// Its density at an index from 0 to kPuffVoxels - 1.
+double puffDensity(const glm::dvec3& index);
+
 /// A map with a name, for tests that must hold under any.
 struct NamedMap {
   std::string name;

@@ -1,23 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The lights of one camera ray. A "beam" is a light whose direction (at infinity) or position is fixed for the whole
-// ray, so that all cells of the ray share its cache and nothing is drawn in a cell: suns as they are, one direction
-// towards each sun disc and environment, one direction by the phase function, the strongest point lights, and one of
-// the other point lights.
+// ray, so that all cells of the ray share its cache and nothing is drawn in a cell: suns, one direction towards each
+// sun disc, one direction for all environments together, the strongest point lights, and one of the other point lights.
 #ifndef TYNDALL_MARCH_BEAMS_GLSL
 #define TYNDALL_MARCH_BEAMS_GLSL
 
 #include "core/equiangular.glsl"
-#include "core/octahedral.glsl"
-#include "core/sobol.glsl"
 #include "light/lights.glsl"
-#include "passes/march/media.glsl"
-
-// Dimensions of the sample's Sobol point.
-const uint kDimPixel = 0u;  // and 1
-const uint kDimOffset = 2u;
-const uint kDimLight = 3u;  // and 4; the second area light: 7 and 8
-const uint kDimPhase = 5u;  // and 6
-const uint kDimSelect = 9u;
+#include "passes/march/sky.glsl"
 
 struct Beam {
   bool point;
@@ -42,67 +32,26 @@ void addBeam(Beam beam) {
   ++beamCount;
 }
 
-// Density of the direction that the phase beam takes: of one medium's phase function, each medium as likely.
-float phaseBeamPdf(MarchScenePtr march, vec3 d, vec3 w) {
-  float sum = 0.0;
-  if (march.at[0].phaseBeam != 0u) {
-    [[unroll]] for (uint m = 0u; m < kMedia; ++m) {
-      sum += evalPhase(media[m].phase, d, w);
-    }
-    sum /= float(kMedia);
-  }
-  return sum;
-}
-
-// The cache group whose direction is nearest to w.
-uint sectorGroup(MarchScenePtr march, vec3 w) {
-  const uint edge = march.at[0].sectorEdge;
-  if (edge == 0u) {
-    return kNoCache;
-  }
-  const uvec2 place = min(uvec2((0.5 * octahedralFromDirection(w) + 0.5) * float(edge)), uvec2(edge - 1u));
-  return march.at[0].sectorGroup + place.x + edge * place.y;
-}
-
-uint distantGroup(MarchScenePtr march, DistantLight light, uint index, vec3 w) {
-  const bool environment = light.kind == kDistantConstant || light.kind == kDistantMap;
-  return environment ? sectorGroup(march, w) : march.at[0].distantGroup + index;
-}
-
-// One beam per light at infinity, by its own sampler; its area lights are joined with the phase beam by the balance
-// heuristic, light by light.
+// One beam per sun, by its own sampler, and one for the environments.
 void addDistantBeams(ScenePtr scene, MarchScenePtr march, vec3 d, Sobol sobol, inout Rng rng) {
-  uint dimension = kDimLight;
+  bool sky = false;
   [[dont_unroll]] for (uint i = 0u; i < scene.at[0].distantCount; ++i) {
     DistantLight light = scene.at[0].distant.at[i];
+    if (isEnvironment(light)) {
+      sky = true;
+      continue;
+    }
     Beam beam = Beam(false, light.toLight, light.radiance, march.at[0].distantGroup + i);
-    if (kDistantAreas && light.kind != kDistantDelta) {
-      const vec2 xi = dimension <= 7u ? vec2(sobolFloat(sobol, dimension), sobolFloat(sobol, dimension + 1u)) : rngFloat2(rng);
-      dimension += 4u;
-      beam.place = light.kind == kDistantMap ? distantDirection(light, rng) : distantDirectionAt(light, xi);
-      const float ownPdf = distantPdfOf(light, beam.place);
-      const float pdf = ownPdf + (kPlantedBug == kBugBranchPdf ? 0.0 : phaseBeamPdf(march, d, beam.place));
-      beam.strength = pdf > 0.0 ? distantRadianceOf(light, beam.place) / pdf : vec3(0.0);
-      beam.group = distantGroup(march, light, i, beam.place);
+    if (kDistantAreas && light.kind == kDistantDisc) {
+      beam.place = distantDirectionAt(light, vec2(sobolFloat(sobol, kDimDisc), sobolFloat(sobol, kDimDisc + 1u)));
+      beam.strength /= distantPdfOf(light, light.toLight);
     }
     addBeam(beam);
   }
-}
-
-void addPhaseBeam(ScenePtr scene, MarchScenePtr march, vec3 d, Sobol sobol, inout Rng rng) {
-  const uint medium = min(uint(sobolFloat(sobol, kDimSelect) * float(kMedia)), kMedia - 1u);
-  const vec3 w = phaseSample(scene.at[0].media.at[medium].phase, d, rng);
-  const float phasePdf = phaseBeamPdf(march, d, w);
-  Beam beam = Beam(false, w, vec3(0.0), sectorGroup(march, w));
-  [[dont_unroll]] for (uint i = 0u; i < scene.at[0].distantCount; ++i) {
-    DistantLight light = scene.at[0].distant.at[i];
-    const vec3 radiance = distantRadianceOf(light, w);
-    if (light.kind != kDistantDelta && radiance != vec3(0.0)) {
-      beam.strength += radiance / (phasePdf + distantPdfOf(light, w));
-      beam.group = distantGroup(march, light, i, w);
-    }
+  if (kSky && sky) {
+    const SkySample sky = skySample(scene, march, d, sobol, rng);
+    addBeam(Beam(false, sky.direction, sky.strength, march.at[0].skyGroup + sky.index));
   }
-  addBeam(beam);
 }
 
 // How much of a point light's intensity the ray's stretch in the media sees: the integral of 1 / r^2 over it.
@@ -132,6 +81,8 @@ void addPointBeams(ScenePtr scene, MarchScenePtr march, vec3 origin, vec3 direct
   }
 }
 
+bool isSky(MarchScenePtr march, Beam beam) { return kSky && beam.group >= march.at[0].skyGroup; }
+
 void loadCaches(MarchScenePtr march) {
   [[unroll]] for (uint b = 0u; b < kBeams; ++b) {
     [[unroll]] for (uint s = 0u; s < kSlots; ++s) {
@@ -139,7 +90,11 @@ void loadCaches(MarchScenePtr march) {
       const uint index = beams[b].group == kNoCache ? kNoCache : march.at[0].cacheOf.at[beams[b].group * kSlots + s];
       beamCached[i] = index != kNoCache;
       if (beamCached[i]) {
-        beamCaches[i] = march.at[0].caches.at[index];
+        LightCachePtr caches = march.at[0].caches;
+        if (isSky(march, beams[b])) {
+          caches = march.at[0].skyCaches;
+        }
+        beamCaches[i] = caches.at[index];
       }
     }
   }
@@ -153,9 +108,6 @@ void makeBeams(ScenePtr scene, MarchScenePtr march, vec3 origin, vec3 direction,
   beamCount = 0u;
   if (kDistantLights) {
     addDistantBeams(scene, march, direction, sobol, rng);
-  }
-  if (kDistantAreas && march.at[0].phaseBeam != 0u) {
-    addPhaseBeam(scene, march, direction, sobol, rng);
   }
   if (kPointLights) {
     addPointBeams(scene, march, origin, direction, stretch, rng);

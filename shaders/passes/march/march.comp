@@ -11,10 +11,20 @@ TYNDALL_MARCH_SPEC(SPEC)
 #undef SPEC
 const uint kFormatMask = 0u; // no atlas is read
 
+#include "passes/march/pixel.glsl"
 #include "passes/march/ray.glsl"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { MarchInputs io; };
+
+vec3 cameraOrigin(Camera camera, vec2 raster) {
+  return kOrthographic ? camera.origin + raster.x * camera.rasterX + raster.y * camera.rasterY : camera.origin;
+}
+
+vec3 cameraDirection(Camera camera, vec2 raster) {
+  const vec3 offset = raster.x * camera.rasterX + raster.y * camera.rasterY;
+  return normalize(kOrthographic ? camera.corner : camera.corner + offset);
+}
 
 vec2 pixelOffset(Sobol sobol) { return vec2(sobolFloat(sobol, kDimPixel), sobolFloat(sobol, kDimPixel + 1u)); }
 
@@ -48,6 +58,8 @@ void main() {
   const uvec2 pixel = uvec2(packed & 0xffffu, packed >> 16);
   Camera camera = io.scene.at[0].camera;
   loadScene(io.scene, io.march);
+  const vec2 middle = (vec2(pixel) + 0.5) / vec2(io.scene.at[0].imageSize);
+  beginPixel(io.scene, io.march, cameraOrigin(camera, middle), cameraDirection(camera, middle));
   PixelSums sums = io.sums.at[invocation];
   if (io.resume == 0u) {
     for (int i = 0; i < 4; ++i) {
@@ -65,9 +77,8 @@ void main() {
     const Sobol sobol = sobolBegin(pixel, index, io.seed);
     Rng rng = rngSeed(pixel, index, io.seed);
     const vec2 raster = (vec2(pixel) + pixelOffset(sobol)) / vec2(io.scene.at[0].imageSize);
-    const vec3 offset = raster.x * camera.rasterX + raster.y * camera.rasterY;
-    const vec3 origin = kOrthographic ? camera.origin + offset : camera.origin;
-    const vec3 direction = normalize(kOrthographic ? camera.corner : camera.corner + offset);
+    const vec3 origin = cameraOrigin(camera, raster);
+    const vec3 direction = cameraDirection(camera, raster);
     const MarchResult result = marchRay(io.scene, io.march, origin, direction, sobol, rng);
     addSample(sums, result, direction);
     cells += result.cells;

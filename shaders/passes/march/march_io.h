@@ -23,6 +23,7 @@
   SPEC(bool, kPointLights,      6, true)                                                      \
   SPEC(bool, kDistantLights,    7, true)                                                      \
   SPEC(bool, kDistantAreas,     8, true)        /* sun discs, environments */                 \
+  SPEC(bool, kSky,             15, true)        /* environments */                            \
   SPEC(bool, kOrthographic,     9, false)                                                     \
   SPEC(bool, kBackground,      10, true)        /* a distant light is visible */              \
   SPEC(bool, kAovs,            11, false)       /* depth and albedo */                        \

@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: Apache-2.0
+// The march against tracking, which shares neither distances, nor lights, nor shadows with it: the same expectation in
+// scenes of every kind. The layers beside the picture; the preview's bias.
+#include "film/exr.h"
+#include "render/film_fixture.h"
+#include "support/render_fixture.h"
+#include "support/render_scenes.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <unistd.h>
+
+namespace tyndall::test {
+namespace {
+
+/// A scene, and a planted bug that must be seen in it (kBugNone: none is planted).
+struct Case {
+  const char* name;
+  TestScene (*scene)();
+  std::uint32_t bug = interop::kBugNone;
+  std::uint32_t samples = 128;              ///< of a replicate of tracking; dense media cost it a thousand times as much
+};
+
+TestScene view() {
+  TestScene test({16, 16});
+  test.perspective({1.0, 0.5, 4.0}, {0.0, 0.0, 0.0}, 26.0);
+  return test;
+}
+
+TestScene puff(double density = 1.0, double g = 0.3) {
+  TestScene test = view();
+  test.grid(puffGrid(), density, 0.9).phase = henyeyGreenstein(g);
+  return test;
+}
+
+TestScene sunlit(double density, double diameter = 0.0, double g = 0.3) {
+  TestScene test = puff(density, g);
+  test.sun({0.4, -1.0, -0.3}, 1.0, diameter);
+  return test;
+}
+
+TestScene lamplit(const glm::dvec3& position) {
+  TestScene test = puff();
+  test.point(position, 2.0);
+  return test;
+}
+
+/// Looks at one half of the puff, so that no ray comes near the light in the other: there, tracking's variance is
+/// without bounds.
+TestScene lampInAVoxel() {
+  TestScene test = lamplit({-0.41, 0.13, 0.07});
+  test.perspective({0.5, 0.0, 4.0}, {0.5, 0.0, 0.0}, 10.0);
+  return test;
+}
+
+TestScene twelveLamps() {
+  TestScene test = puff();
+  for (int i = 0; i < 12; ++i) {
+    test.point({1.6 * std::cos(0.5 * i), 1.3 * std::sin(1.1 * i), 1.6 * std::sin(0.5 * i)}, 0.2 + 0.1 * (i * 7 % 12));
+  }
+  return test;
+}
+
+TestScene underAnEnvironment(const scene::Light& light, double g = 0.6) {
+  TestScene test = puff(1.0, g);
+  test.scene.lights.push_back({"environment", light, true});
+  return test;
+}
+
+/// A lat-long map of three unequal patches on a dim ground, removed when the program ends.
+struct MapFile {
+  std::filesystem::path path = std::filesystem::temp_directory_path() / fmt::format("tyndall-agreement-{}.exr", ::getpid());
+
+  MapFile() {
+    constexpr glm::uvec2 kSize{64, 32};
+    film::Image image;
+    image.displaySize = kSize;
+    image.window = {glm::uvec2(0), kSize};
+    for (std::uint32_t channel = 0; channel < 3; ++channel) {
+      std::vector<float> texels(std::size_t(kSize.x) * kSize.y, 0.1f);
+      for (std::uint32_t i = 0; i < 12; ++i) {
+        texels[(5 + i % 4) * kSize.x + 11 + i / 4] = 20.0f;
+        texels[(20 + i % 3) * kSize.x + 40 + 3 * channel + i / 3] = 4.0f;
+      }
+      image.channels[channel == 0 ? "R" : channel == 1 ? "G" : "B"] = texels;
+    }
+    film::writeExr(path, image);
+  }
+  ~MapFile() { std::filesystem::remove(path); }
+};
+
+TestScene underAMap() {
+  static const MapFile file;
+  return underAnEnvironment(scene::MapEnvironment{file.path.string(), 1.0, 30.0});
+}
+
+TestScene underTheSky() {
+  scene::SkyEnvironment sky;
+  sky.sunDirection = glm::normalize(glm::dvec3(0.6, -0.5, -0.3));
+  sky.scale = 5.0;
+  return underAnEnvironment(sky);
+}
+
+TestScene fogAroundAGrid() {
+  TestScene test = sunlit(2.0);
+  test.sphere({0.0, 0.2, 0.0}, 2.5, 0.15, 0.8).phase = henyeyGreenstein(0.6);
+  test.point({2.0, 1.8, 0.5}, 2.0);
+  return test;
+}
+
+TestScene boxAndSphereAcrossAGrid() {
+  TestScene test = sunlit(1.0, 3.0);
+  test.box({-1.4, -0.6, -0.7}, {0.3, 0.4, 0.8}, 0.6, 0.5).phase = henyeyGreenstein(-0.4);
+  test.sphere({0.4, 0.3, 0.2}, 0.7, 0.9, 0.9);
+  return test;
+}
+
+/// Lattices that neither share planes nor directions; one of them mirrored and sheared.
+TestScene twoGridsAcross() {
+  TestScene test = sunlit(1.0);
+  scene::Medium& other = test.grid(puffGrid({3, -9, 5}, volume::Storage::Half), 1.5, 0.6);
+  other.phase = henyeyGreenstein(-0.5);
+  other.worldFromMedium = glm::translate(glm::dmat4(1.0), {0.4, 0.3, -0.2}) * glm::dmat4(glm::dmat3(0.3) * glm::dmat3(affineMaps().back().worldFromIndex));
+  test.point({-1.5, 1.0, 1.5}, 2.0);
+  return test;
+}
+
+TestScene hotGrid() {
+  TestScene test = sunlit(1.0);
+  scene::Emission emission;
+  emission.kind = scene::Emission::Kind::Blackbody;
+  emission.scale = 1e-5;
+  emission.temperatureScale = 1500.0;
+  emission.temperatureAuto = false;
+  emission.tiedToAbsorption = true;
+  const volume::BrickGrid shape = constantGrid(9, glm::dvec3(-0.8), glm::dvec3(1.1), 1.0);
+  test.emissionGrid(gridOf(glm::ivec3(9), glm::ivec3(0), shape.worldFromIndex, [](const glm::ivec3& i) { return 0.6 + 0.07 * i.y + 0.04 * i.x; }), emission);
+  return test;
+}
+
+TestScene orthographic() {
+  TestScene test = sunlit(1.0, 0.5);
+  test.orthographic({2.0, 3.0, 4.0}, {0.0, 0.0, 0.0}, 1.8);
+  return test;
+}
+
+TestScene cameraInside() {
+  TestScene test = sunlit(3.0);
+  test.perspective({0.2, 0.1, 0.3}, {0.0, 0.0, -1.0}, 70.0);
+  return test;
+}
+
+TestScene cameraFarAway() {
+  TestScene test = sunlit(1.0);
+  test.perspective({2e3, 4e3, 9e3}, {0.0, 0.0, 0.0}, 0.011);
+  return test;
+}
+
+TestScene farFromTheOrigin() {
+  TestScene test = sunlit(1.0);
+  const glm::dvec3 far(1e5, -1e5, 1e5);
+  test.scene.media[0].worldFromMedium = glm::translate(glm::dmat4(1.0), far);
+  test.scene.camera.position += far;
+  test.scene.camera.target += far;
+  return test;
+}
+
+TestScene stored(volume::Storage storage) {
+  TestScene test = sunlit(1.0);
+  test.volumes.grids[0] = puffGrid({-1, -9, 1000}, storage);
+  return test;
+}
+
+const Case kCases[] = {
+    {"Sun", [] { return sunlit(1.0); }, interop::kBugOtherCache},
+    {"WideSunDisc", [] { return sunlit(1.0, 10.0); }},
+    {"PeakedPhaseFunction", [] { return sunlit(1.0, 10.0, 0.9); }, interop::kBugPhaseSign},
+    {"ConstantEnvironment", [] { return underAnEnvironment(scene::ConstantEnvironment{glm::dvec3(0.3)}, 0.8); }, interop::kBugBranchPdf},
+    {"Sky", underTheSky},
+    {"EnvironmentMap", underAMap, interop::kBugBranchPdf},
+    {"LampOutside", [] { return lamplit({1.5, 1.0, 0.5}); }, interop::kBugJacobian},
+    {"LampNear", [] { return lamplit({0.1, 1.02, 0.1}); }, interop::kBugOtherCache},
+    {"LampInAVoxel", lampInAVoxel, interop::kBugNoCorrection},
+    {"TwelveLamps", twelveLamps, interop::kBugOtherCache},
+    {"FogAroundAGrid", fogAroundAGrid},
+    {"BoxAndSphereAcrossAGrid", boxAndSphereAcrossAGrid},
+    {"TwoGridsAcross", twoGridsAcross, interop::kBugPhaseSign},
+    {"HotGrid", hotGrid},
+    {"Orthographic", orthographic},
+    {"CameraInside", cameraInside},
+    {"CameraFarAway", cameraFarAway},
+    {"FarFromTheOrigin", farFromTheOrigin},
+    {"Thin", [] { return sunlit(0.01); }, interop::kBugNoInverse4Pi},
+    {"Thick", [] { return sunlit(5.0); }, interop::kBugNoCorrection},
+    {"Opaque", [] { return sunlit(500.0); }, interop::kBugNoCorrection, 4},
+    {"EightBits", [] { return stored(volume::Storage::Unorm8); }},
+    {"HalfFloats", [] { return stored(volume::Storage::Half); }},
+};
+
+class Agreement : public testing::TestWithParam<Case> {};
+INSTANTIATE_TEST_SUITE_P(, Agreement, testing::ValuesIn(kCases), [](const auto& one) { return std::string(one.param.name); });
+
+TEST_P(Agreement, OfTheMarchWithTracking) {
+  const TestScene test = GetParam().scene();
+  const Moments tracking = renderMoments(test.scene, test.volumes, {.replicates = 16, .samples = GetParam().samples});
+  MomentOptions options{.replicates = 16, .firstSeed = 100001};
+  options.estimator.method = render::Method::March;
+  const Verdict verdict = tileTest(renderMoments(test.scene, test.volumes, options), tracking);
+  EXPECT_AGREES(verdict);
+  std::cout << verdict.text() << std::endl;
+  if (GetParam().bug != interop::kBugNone) {
+    EXPECT_DIFFERS(tileTest(renderMoments(test.scene, test.volumes, withBug(options, GetParam().bug)), tracking));
+  }
+}
+
+/// Depth, opacity and albedo of a slab that is as deep everywhere; media of two albedos one behind the other.
+TEST(Layers, OfTwoSlabsHaveTheClosedForm) {
+  TestScene test({4, 4});
+  test.orthographic({0.0, 0.0, 5.0}, {0.0, 0.0, 0.0}, 0.5);
+  test.box({-1.0, -1.0, 0.0}, {1.0, 1.0, 1.0}, 0.7, 0.9);
+  test.box({-1.0, -1.0, -1.0}, {1.0, 1.0, 0.0}, 1.1, 0.2);
+  const double front = -std::expm1(-0.7);
+  const double back = std::exp(-0.7) * -std::expm1(-1.1);
+  // Mean of s over sigma exp(-sigma s) ds: (1 - exp(-x)(1 + x)) / sigma for a slab of optical depth x.
+  const auto reach = [](double sigma) { return (1.0 - std::exp(-sigma) * (1.0 + sigma)) / sigma; };
+  const double depth = 4.0 * front + reach(0.7) + 5.0 * back + std::exp(-0.7) * reach(1.1);
+  for (const render::Method method : {render::Method::Tracking, render::Method::March}) {
+    SCOPED_TRACE(render::methodName(method));
+    FilmRunner runner(test, {.method = method, .aovs = true});
+    std::vector<double> values[3];
+    for (std::uint32_t seed = 0; seed < 32 * effort(); ++seed) {
+      std::string stoppedBy;
+      const film::Film film = runner.run({.samples = 64, .seconds = {}, .error = {}}, seed, stoppedBy);
+      const int layers[] = {film::Opacity, film::Depth, film::AlbedoR};
+      for (int i = 0; i < 3; ++i) {
+        values[i].push_back(0.0);
+        for (std::size_t pixel = 0; pixel < 16; ++pixel) {
+          values[i].back() += film.extraMean(pixel, layers[i]) / 16.0;
+        }
+      }
+    }
+    const double expected[] = {front + back, depth, 0.9 * front + 0.2 * back};
+    for (int i = 0; i < 3; ++i) {
+      const film::SampleSummary summary = film::summarise(values[i]);
+      const double error = std::sqrt(summary.variance / summary.count);
+      EXPECT_NEAR(summary.mean, expected[i], 5.0 * error + 2e-6 * expected[i]) << i;
+      EXPECT_GT(std::abs(summary.mean - 1.01 * expected[i]), 5.0 * error) << i; // planted: 1 % off
+    }
+  }
+}
+
+/// Root of the summed squares of the preview's error, relative to the picture's; what chance adds is taken off.
+double previewBias(const TestScene& test) {
+  MomentOptions options{.replicates = 24};
+  options.estimator.method = render::Method::March;
+  const Moments exact = renderMoments(test.scene, test.volumes, options);
+  options.firstSeed = 100001;
+  options.estimator.preview = true;
+  const Moments preview = renderMoments(test.scene, test.volumes, options);
+  double squares = 0.0;
+  double norm = 0.0;
+  for (std::size_t i = 0; i < exact.pixels.size(); ++i) {
+    const film::SampleSummary& a = exact.pixels[i][0];
+    const film::SampleSummary& b = preview.pixels[i][0];
+    squares += (a.mean - b.mean) * (a.mean - b.mean) - a.variance / a.count - b.variance / b.count;
+    norm += a.mean * a.mean;
+  }
+  return std::sqrt(std::max(squares, 0.0) / norm);
+}
+
+/// Grows with density: measured in a prototype as 0.05, 0.4 and 3 % where a cloud of 128 voxels is thin, normal, dense.
+TEST(Preview, IsBiasedAsMuchAsItsCachesAre) {
+  const volume::BrickGrid grid = volume::loadGrid("volumes/cloud.vdb", {});
+  const Bounds3 bounds = grid.worldBounds();
+  const double size = glm::length(bounds.size());
+  TestScene test({16, 16});
+  test.perspective(bounds.centre() + size * glm::dvec3(0.3, 0.2, 1.2), bounds.centre(), 45.0);
+  test.sun({0.4, -1.0, -0.6}, 2.0);
+  test.grid(grid, 1.0, 0.9).phase = henyeyGreenstein(0.3);
+  const auto biasAt = [&](double density) {
+    test.scene.media[0].densityScale = density / size;
+    return previewBias(test);
+  };
+  const double normal = biasAt(20.0);
+  const double dense = biasAt(200.0);
+  std::cout << "bias " << normal << " " << dense << std::endl;
+  EXPECT_GT(normal, 2e-4);
+  EXPECT_LT(normal, 0.01);
+  EXPECT_GT(dense, 2.0 * normal);
+  EXPECT_LT(dense, 0.1);
+}
+
+} // namespace
+} // namespace tyndall::test
