@@ -12,7 +12,7 @@ GPU_CONST uint kNoCache = 0xffffffffu;
 
 // Lights that every ray takes are "beams"; of the other point lights each ray draws one.
 GPU_CONST uint kMaxBeams = 8;          // suns, one for all environments, point lights, one for the drawn point light
-GPU_CONST uint kMaxSlots = 8;          // placed grids
+GPU_CONST uint kMaxSlots = 4;          // placed grids
 GPU_CONST uint kMaxHomogeneous = 8;
 // Directions to environments: one in each cell of the octahedral square of this edge, new ones for every batch.
 GPU_CONST uint kSkyEdge = 8;

@@ -25,6 +25,22 @@ void add(render::Totals& sum, const render::Totals& before, const render::Totals
   sum.cut += after.cut - before.cut;
 }
 
+/// Of an environment.
+CacheBuild buildSkyCaches(const gpu::Device& device, const gpu_scene::GpuScene& gpuScene,
+                          const gpu_scene::VolumeSet& volumes, double cacheBytes, std::uint32_t repeats) {
+  render::MarchScene march(device, gpuScene, volumes, cacheBytes);
+  march.begin(0, 0); // compiles
+  std::vector<double> wall;
+  std::vector<double> cpu;
+  for (std::uint32_t batch = 1; batch <= repeats; ++batch) {
+    const Cost cost = costOf([&] { march.begin(0, batch); });
+    wall.push_back(cost.wall);
+    cpu.push_back(cost.cpu);
+  }
+  const render::CacheReport report = march.caches();
+  return {{median(wall), median(cpu)}, report.bytes, report.count, report.dropped, 0.0};
+}
+
 } // namespace
 
 double secondsOf(const Cost& cost, const gpu::Device& device) {
@@ -34,6 +50,9 @@ double secondsOf(const Cost& cost, const gpu::Device& device) {
 CacheBuild buildCaches(const gpu::Device& device, const gpu_scene::GpuScene& gpuScene,
                        const gpu_scene::VolumeSet& volumes, double cacheBytes, std::uint32_t repeats) {
   const render::MarchPlan wanted = render::planMarch(gpuScene);
+  if (wanted.sky) {
+    return buildSkyCaches(device, gpuScene, volumes, cacheBytes, repeats);
+  }
   const std::vector<render::LightCachePlan> plans =
       render::planLightCaches(wanted.wanted, gpuScene.media(), volumes, cacheBytes);
   CacheBuild result;

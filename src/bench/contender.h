@@ -23,8 +23,9 @@ struct CacheBuild {
   double bytes = 0.0;
   std::uint32_t count = 0;
   std::uint32_t dropped = 0;
-  double spacing = 0.0; ///< voxels between nodes of the first cache; 0 without
+  double spacing = 0.0; ///< voxels between nodes of the first cache; 0 without and for skies
 };
+/// Those of a sky are made anew for every batch, planning and memory included, and a pass's time holds them already.
 /// @param gpuScene uploaded as cells. Built `repeats` times after a first time that compiles; medians.
 CacheBuild buildCaches(const gpu::Device& device, const gpu_scene::GpuScene& gpuScene,
                        const gpu_scene::VolumeSet& volumes, double cacheBytes, std::uint32_t repeats);

@@ -49,7 +49,7 @@ public:
     render::EstimatorOptions options;
     options.method = render::Method::March;
     options.preview = !correction;
-    return render::marchSpecFor(cells_, options);
+    return render::marchSpecFor(cells_, march_.plan(), options);
   }
 
   /// Median time over the repeats, after one that compiles.

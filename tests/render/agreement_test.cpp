@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // The march against tracking, which shares neither distances, nor lights, nor shadows with it: the same expectation in
-// scenes of every kind. The layers beside the picture; the preview's bias.
+// scenes of every kind. The preview's bias.
 #include "film/exr.h"
-#include "render/film_fixture.h"
 #include "support/render_fixture.h"
 #include "support/render_scenes.h"
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
-#include <iostream>
-#include <unistd.h>
 
 namespace tyndall::test {
 namespace {
@@ -24,7 +21,7 @@ struct Case {
   const char* name;
   TestScene (*scene)();
   std::uint32_t bug = interop::kBugNone;
-  std::uint32_t samples = 128;              ///< of a replicate of tracking; dense media cost it a thousand times as much
+  std::uint32_t samples = 64; ///< of a replicate of tracking; dense media cost it a thousand times as much
 };
 
 TestScene view() {
@@ -75,7 +72,8 @@ TestScene underAnEnvironment(const scene::Light& light, double g = 0.6) {
 
 /// A lat-long map of three unequal patches on a dim ground, removed when the program ends.
 struct MapFile {
-  std::filesystem::path path = std::filesystem::temp_directory_path() / fmt::format("tyndall-agreement-{}.exr", ::getpid());
+  std::filesystem::path path =
+      std::filesystem::temp_directory_path() / fmt::format("tyndall-agreement-{}.exr", ::getpid());
 
   MapFile() {
     constexpr glm::uvec2 kSize{64, 32};
@@ -126,7 +124,8 @@ TestScene twoGridsAcross() {
   TestScene test = sunlit(1.0);
   scene::Medium& other = test.grid(puffGrid({3, -9, 5}, volume::Storage::Half), 1.5, 0.6);
   other.phase = henyeyGreenstein(-0.5);
-  other.worldFromMedium = glm::translate(glm::dmat4(1.0), {0.4, 0.3, -0.2}) * glm::dmat4(glm::dmat3(0.3) * glm::dmat3(affineMaps().back().worldFromIndex));
+  other.worldFromMedium = glm::translate(glm::dmat4(1.0), {0.4, 0.3, -0.2}) *
+                          glm::dmat4(glm::dmat3(0.3) * glm::dmat3(affineMaps().back().worldFromIndex));
   test.point({-1.5, 1.0, 1.5}, 2.0);
   return test;
 }
@@ -140,7 +139,9 @@ TestScene hotGrid() {
   emission.temperatureAuto = false;
   emission.tiedToAbsorption = true;
   const volume::BrickGrid shape = constantGrid(9, glm::dvec3(-0.8), glm::dvec3(1.1), 1.0);
-  test.emissionGrid(gridOf(glm::ivec3(9), glm::ivec3(0), shape.worldFromIndex, [](const glm::ivec3& i) { return 0.6 + 0.07 * i.y + 0.04 * i.x; }), emission);
+  test.emissionGrid(gridOf(glm::ivec3(9), glm::ivec3(0), shape.worldFromIndex,
+                           [](const glm::ivec3& i) { return 0.6 + 0.07 * i.y + 0.04 * i.x; }),
+                    emission);
   return test;
 }
 
@@ -181,13 +182,22 @@ const Case kCases[] = {
     {"Sun", [] { return sunlit(1.0); }, interop::kBugOtherCache},
     {"WideSunDisc", [] { return sunlit(1.0, 10.0); }},
     {"PeakedPhaseFunction", [] { return sunlit(1.0, 10.0, 0.9); }, interop::kBugPhaseSign},
-    {"ConstantEnvironment", [] { return underAnEnvironment(scene::ConstantEnvironment{glm::dvec3(0.3)}, 0.8); }, interop::kBugBranchPdf},
+    {"ConstantEnvironment", [] { return underAnEnvironment(scene::ConstantEnvironment{glm::dvec3(0.3)}, 0.8); },
+     interop::kBugNoInverse4Pi},
     {"Sky", underTheSky},
-    {"EnvironmentMap", underAMap, interop::kBugBranchPdf},
-    {"LampOutside", [] { return lamplit({1.5, 1.0, 0.5}); }, interop::kBugJacobian},
-    {"LampNear", [] { return lamplit({0.1, 1.02, 0.1}); }, interop::kBugOtherCache},
+    {"EnvironmentMap", underAMap, interop::kBugNoInverse4Pi},
+    {"LampOutside",
+     [] {
+       return lamplit({1.5, 1.0, 0.5});
+     },
+     interop::kBugJacobian},
+    {"LampNear",
+     [] {
+       return lamplit({0.1, 1.02, 0.1});
+     },
+     interop::kBugJacobian},
     {"LampInAVoxel", lampInAVoxel, interop::kBugNoCorrection},
-    {"TwelveLamps", twelveLamps, interop::kBugOtherCache},
+    {"TwelveLamps", twelveLamps, interop::kBugJacobian},
     {"FogAroundAGrid", fogAroundAGrid},
     {"BoxAndSphereAcrossAGrid", boxAndSphereAcrossAGrid},
     {"TwoGridsAcross", twoGridsAcross, interop::kBugPhaseSign},
@@ -204,54 +214,17 @@ const Case kCases[] = {
 };
 
 class Agreement : public testing::TestWithParam<Case> {};
-INSTANTIATE_TEST_SUITE_P(, Agreement, testing::ValuesIn(kCases), [](const auto& one) { return std::string(one.param.name); });
+INSTANTIATE_TEST_SUITE_P(, Agreement, testing::ValuesIn(kCases),
+                         [](const auto& one) { return std::string(one.param.name); });
 
 TEST_P(Agreement, OfTheMarchWithTracking) {
   const TestScene test = GetParam().scene();
-  const Moments tracking = renderMoments(test.scene, test.volumes, {.replicates = 16, .samples = GetParam().samples});
+  const Moments tracking = renderMoments(test.scene, test.volumes, {.replicates = 32, .samples = GetParam().samples});
   MomentOptions options{.replicates = 16, .firstSeed = 100001};
   options.estimator.method = render::Method::March;
-  const Verdict verdict = tileTest(renderMoments(test.scene, test.volumes, options), tracking);
-  EXPECT_AGREES(verdict);
-  std::cout << verdict.text() << std::endl;
+  EXPECT_AGREES(tileTest(renderMoments(test.scene, test.volumes, options), tracking));
   if (GetParam().bug != interop::kBugNone) {
     EXPECT_DIFFERS(tileTest(renderMoments(test.scene, test.volumes, withBug(options, GetParam().bug)), tracking));
-  }
-}
-
-/// Depth, opacity and albedo of a slab that is as deep everywhere; media of two albedos one behind the other.
-TEST(Layers, OfTwoSlabsHaveTheClosedForm) {
-  TestScene test({4, 4});
-  test.orthographic({0.0, 0.0, 5.0}, {0.0, 0.0, 0.0}, 0.5);
-  test.box({-1.0, -1.0, 0.0}, {1.0, 1.0, 1.0}, 0.7, 0.9);
-  test.box({-1.0, -1.0, -1.0}, {1.0, 1.0, 0.0}, 1.1, 0.2);
-  const double front = -std::expm1(-0.7);
-  const double back = std::exp(-0.7) * -std::expm1(-1.1);
-  // Mean of s over sigma exp(-sigma s) ds: (1 - exp(-x)(1 + x)) / sigma for a slab of optical depth x.
-  const auto reach = [](double sigma) { return (1.0 - std::exp(-sigma) * (1.0 + sigma)) / sigma; };
-  const double depth = 4.0 * front + reach(0.7) + 5.0 * back + std::exp(-0.7) * reach(1.1);
-  for (const render::Method method : {render::Method::Tracking, render::Method::March}) {
-    SCOPED_TRACE(render::methodName(method));
-    FilmRunner runner(test, {.method = method, .aovs = true});
-    std::vector<double> values[3];
-    for (std::uint32_t seed = 0; seed < 32 * effort(); ++seed) {
-      std::string stoppedBy;
-      const film::Film film = runner.run({.samples = 64, .seconds = {}, .error = {}}, seed, stoppedBy);
-      const int layers[] = {film::Opacity, film::Depth, film::AlbedoR};
-      for (int i = 0; i < 3; ++i) {
-        values[i].push_back(0.0);
-        for (std::size_t pixel = 0; pixel < 16; ++pixel) {
-          values[i].back() += film.extraMean(pixel, layers[i]) / 16.0;
-        }
-      }
-    }
-    const double expected[] = {front + back, depth, 0.9 * front + 0.2 * back};
-    for (int i = 0; i < 3; ++i) {
-      const film::SampleSummary summary = film::summarise(values[i]);
-      const double error = std::sqrt(summary.variance / summary.count);
-      EXPECT_NEAR(summary.mean, expected[i], 5.0 * error + 2e-6 * expected[i]) << i;
-      EXPECT_GT(std::abs(summary.mean - 1.01 * expected[i]), 5.0 * error) << i; // planted: 1 % off
-    }
   }
 }
 
@@ -289,7 +262,6 @@ TEST(Preview, IsBiasedAsMuchAsItsCachesAre) {
   };
   const double normal = biasAt(20.0);
   const double dense = biasAt(200.0);
-  std::cout << "bias " << normal << " " << dense << std::endl;
   EXPECT_GT(normal, 2e-4);
   EXPECT_LT(normal, 0.01);
   EXPECT_GT(dense, 2.0 * normal);

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The coverage mask is conservative: a pixel that it leaves out sees nothing but the background.
 #include "render/coverage.h"
-
 #include "support/render_fixture.h"
 #include "support/render_scenes.h"
 
-#include <gtest/gtest.h>
-
 #include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
 
 #include <algorithm>
 

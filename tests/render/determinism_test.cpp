@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <array>
 #include <bit>
@@ -15,7 +16,6 @@
 #include <filesystem>
 #include <map>
 #include <string>
-#include <unistd.h>
 
 namespace tyndall::test {
 namespace {
@@ -27,7 +27,8 @@ TestScene everything() {
   TestScene test(kSize);
   test.perspective({0.5, 0.7, 4.0}, {0.0, 0.0, 0.0}, 40.0);
   test.sphere({0.8, 0.0, 0.0}, 0.6, 0.7, 0.8);
-  test.grid(spikyGrid({20, 24, 20}, 2, volume::Storage::Half, affineMaps().front().worldFromIndex), 2.0, 0.9).phase = henyeyGreenstein(0.4);
+  test.grid(spikyGrid({20, 24, 20}, 2, volume::Storage::Half, affineMaps().front().worldFromIndex), 2.0, 0.9).phase =
+      henyeyGreenstein(0.4);
   test.scene.media.back().worldFromMedium = glm::dmat4(0.1);
   test.scene.media.back().worldFromMedium[3] = glm::dvec4(-0.5, -1.5, 0.7, 1.0);
   scene::Emission glow;
@@ -90,7 +91,8 @@ protected:
   static render::RenderOptions options() { return test::options(GetParam()); }
   static std::uint64_t referenceHash() { return test::referenceHash(GetParam()); }
 };
-INSTANTIATE_TEST_SUITE_P(, Determinism, testing::ValuesIn(kMethods), [](const auto& one) { return std::string(render::methodName(one.param)); });
+INSTANTIATE_TEST_SUITE_P(, Determinism, testing::ValuesIn(kMethods),
+                         [](const auto& one) { return std::string(render::methodName(one.param)); });
 
 TEST_P(Determinism, DispatchSizeHasNoSay) {
   for (const std::uint32_t chunk : {64u, 1000u, 16384u}) {
@@ -119,7 +121,8 @@ TEST(StepBound, HasNoSay) {
 TEST_P(Determinism, CropsMergeToTheWhole) {
   const film::Film whole = renderFilm(everything(), options());
   std::vector<std::pair<std::string, film::Film>> parts;
-  for (const film::Window& window : {film::Window{{0, 0}, {17, 24}}, film::Window{{17, 0}, {40, 11}}, film::Window{{17, 11}, {40, 24}}}) {
+  for (const film::Window& window :
+       {film::Window{{0, 0}, {17, 24}}, film::Window{{17, 0}, {40, 11}}, film::Window{{17, 11}, {40, 24}}}) {
     render::RenderOptions cropped = options();
     cropped.crop = window;
     parts.emplace_back(fmt::format("part {}", parts.size()), renderFilm(everything(), cropped));
@@ -149,11 +152,14 @@ TEST_P(Determinism, ResumedIsUninterrupted) {
 }
 
 /// Prints the hash, for the next test's children.
-TEST_P(Determinism, HashOfTheReference) { std::printf("film-hash %016llx\n", static_cast<unsigned long long>(referenceHash())); }
+TEST_P(Determinism, HashOfTheReference) {
+  std::printf("film-hash %016llx\n", static_cast<unsigned long long>(referenceHash()));
+}
 
 std::string hashInChild(render::Method method, int threads) {
   const std::string program = std::filesystem::read_symlink("/proc/self/exe");
-  const std::string command = fmt::format("LP_NUM_THREADS={} '{}' --gtest_filter=Determinism.HashOfTheReference/{}", threads, program, render::methodName(method));
+  const std::string command = fmt::format("LP_NUM_THREADS={} '{}' --gtest_filter=Determinism.HashOfTheReference/{}",
+                                          threads, program, render::methodName(method));
   FILE* pipe = ::popen(command.c_str(), "r");
   std::string result;
   std::array<char, 256> line{};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Emission (docs/theory.md A13): slabs, the isothermal cavity, heat without density, a steep temperature ramp.
+// Emission (docs/theory.md A13): slabs, the isothermal cavity, heat without density, a steep temperature ramp. The
+// layers beside the picture.
 #include "light/blackbody.h"
+#include "render/film_fixture.h"
 #include "support/oracle_radiance.h"
 #include "support/render_fixture.h"
 #include "support/render_scenes.h"
@@ -55,7 +57,8 @@ TEST(EmissiveSlab, TwoHomogeneousHalvesAddUp) {
   test.box(glm::dvec3(-1.0), {1.0, 1.0, 0.2}, 0.7, 0.0).emission = linear(3.0);
   test.box({-1.0, -1.0, 0.2}, glm::dvec3(1.0), 0.7, 0.0).emission = linear(3.0);
   for (const MomentOptions& options : eachMethod()) {
-    EXPECT_AGREES(imageTest(renderMoments(test.scene, test.volumes, options), 3.0 * -std::expm1(-1.4) / 0.7)) << nameOf(options);
+    EXPECT_AGREES(imageTest(renderMoments(test.scene, test.volumes, options), 3.0 * -std::expm1(-1.4) / 0.7))
+        << nameOf(options);
   }
 }
 
@@ -98,10 +101,12 @@ TEST(IsothermalCavity, HasTheRadianceOfABlackbody) {
     const Moments one = renderMoments(homogeneous.scene, homogeneous.volumes, options);
     const Moments two = renderMoments(grids.scene, grids.volumes, options);
     for (int channel = 0; channel < 3; ++channel) {
-      // The homogeneous box scatters 40 % away: what it emits is (1 - albedo) B. 1e-3: the blackbody table's stated error.
+      // The homogeneous box scatters 40 % away: what it emits is (1 - albedo) B. 1e-3: the blackbody table's stated
+      // error.
       EXPECT_AGREES(imageTest(one, 0.6 * expected[channel], channel, 1e-3)) << channel << nameOf(options);
       EXPECT_AGREES(imageTest(two, expected[channel], channel, 1e-3)) << channel << nameOf(options);
-      EXPECT_DIFFERS(imageTest(two, 1.05 * expected[channel], channel, 1e-3)) << channel << nameOf(options); // planted: 5 % off
+      EXPECT_DIFFERS(imageTest(two, 1.05 * expected[channel], channel, 1e-3))
+          << channel << nameOf(options); // planted: 5 % off
     }
   }
 }
@@ -135,10 +140,47 @@ TEST(TemperatureRamp, IsInterpolatedBeforePlanck) {
   const OracleScene oracle(test.scene, test.volumes, {.relative = 1e-6});
   const auto reference = oracle.picture([&](const OracleRay& ray) { return oracle.radiance(ray); }, 2);
   for (const MomentOptions& options : eachMethod({.replicates = 64})) {
-    EXPECT_AGREES(imageTest(renderMoments(test.scene, test.volumes, options), meanOf(reference), 0, 1e-3)) << nameOf(options);
+    EXPECT_AGREES(imageTest(renderMoments(test.scene, test.volumes, options), meanOf(reference), 0, 1e-3))
+        << nameOf(options);
   }
   const MomentOptions bad = withBug({.replicates = 64}, interop::kBugOneTapBlackbody); // the march has no such lookups
   EXPECT_DIFFERS(imageTest(renderMoments(test.scene, test.volumes, bad), meanOf(reference), 0, 1e-3));
+}
+
+/// Depth, opacity and albedo of a slab that is as deep everywhere; media of two albedos one behind the other.
+TEST(Layers, OfTwoSlabsHaveTheClosedForm) {
+  TestScene test({4, 4});
+  test.orthographic({0.0, 0.0, 5.0}, {0.0, 0.0, 0.0}, 0.5);
+  test.box({-1.0, -1.0, 0.0}, {1.0, 1.0, 1.0}, 0.7, 0.9);
+  test.box({-1.0, -1.0, -1.0}, {1.0, 1.0, 0.0}, 1.1, 0.2);
+  const double front = -std::expm1(-0.7);
+  const double back = std::exp(-0.7) * -std::expm1(-1.1);
+  // Mean of s over sigma exp(-sigma s) ds: (1 - exp(-x)(1 + x)) / sigma for a slab of optical depth x.
+  const auto reach = [](double sigma) { return (1.0 - std::exp(-sigma) * (1.0 + sigma)) / sigma; };
+  const double depth = 4.0 * front + reach(0.7) + 5.0 * back + std::exp(-0.7) * reach(1.1);
+  for (const render::Method method : {render::Method::Tracking, render::Method::March}) {
+    SCOPED_TRACE(render::methodName(method));
+    FilmRunner runner(test, {.method = method, .aovs = true});
+    std::vector<double> values[3];
+    for (std::uint32_t seed = 0; seed < 32 * effort(); ++seed) {
+      std::string stoppedBy;
+      const film::Film film = runner.run({.samples = 64, .seconds = {}, .error = {}}, seed, stoppedBy);
+      const int layers[] = {film::Opacity, film::Depth, film::AlbedoR};
+      for (int i = 0; i < 3; ++i) {
+        values[i].push_back(0.0);
+        for (std::size_t pixel = 0; pixel < 16; ++pixel) {
+          values[i].back() += film.extraMean(pixel, layers[i]) / 16.0;
+        }
+      }
+    }
+    const double expected[] = {front + back, depth, 0.9 * front + 0.2 * back};
+    for (int i = 0; i < 3; ++i) {
+      const film::SampleSummary summary = film::summarise(values[i]);
+      const double error = std::sqrt(summary.variance / summary.count);
+      EXPECT_NEAR(summary.mean, expected[i], 5.0 * error + 2e-6 * expected[i]) << i;
+      EXPECT_GT(std::abs(summary.mean - 1.01 * expected[i]), 5.0 * error) << i; // planted: 1 % off
+    }
+  }
 }
 
 } // namespace

@@ -9,10 +9,13 @@
 namespace tyndall::test {
 
 /// The film that the program would make of a scene, coverage mask and stopping included.
-inline film::Film renderFilm(const TestScene& test, const render::RenderOptions& options, render::RenderReport* report = nullptr) {
-  const gpu_scene::GpuScene gpuScene(probeDevice(), test.scene, test.volumes, render::layoutOf(options.estimator.method));
+inline film::Film renderFilm(const TestScene& test, const render::RenderOptions& options,
+                             render::RenderReport* report = nullptr) {
+  const gpu_scene::GpuScene gpuScene(probeDevice(), test.scene, test.volumes,
+                                     render::layoutOf(options.estimator.method));
   render::RenderReport own;
-  return render::renderFilm(probeDevice(), test.scene, test.volumes, gpuScene, options, report != nullptr ? *report : own);
+  return render::renderFilm(probeDevice(), test.scene, test.volumes, gpuScene, options,
+                            report != nullptr ? *report : own);
 }
 
 /// Films of one scene for many seeds with one pipeline: the renderer's loop over batches without mask and progress.

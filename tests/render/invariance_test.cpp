@@ -3,9 +3,8 @@
 #include "support/render_fixture.h"
 #include "support/render_scenes.h"
 
-#include <gtest/gtest.h>
-
 #include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
 
 #include <cmath>
 
@@ -44,7 +43,8 @@ private:
     std::size_t method = 0;
     // Seeds of their own, so that the two are independent.
     for (const MomentOptions& options : eachMethod({.replicates = 64, .firstSeed = 100001})) {
-      const Verdict verdict = tileTest(moments_[method++], renderMoments(other.scene, other.volumes, options), tolerance);
+      const Verdict verdict =
+          tileTest(moments_[method++], renderMoments(other.scene, other.volumes, options), tolerance);
       EXPECT_EQ(verdict.agrees(), same) << nameOf(options) << ": " << verdict.text();
     }
   }
@@ -132,8 +132,10 @@ TEST(Invariance, OfAGridTurnedByNinetyDegrees) {
   turn[0][1] = -1.0;
   turn[2][2] = 1.0;
   turn[3] = glm::dvec4(0.0, kPuffVoxels - 1.0, 0.0, 1.0);
-  const volume::BrickGrid turned = gridOf(glm::ivec3(kPuffVoxels), glm::ivec3(0), upright.worldFromIndex * turn,
-                                          [](const glm::ivec3& index) { return puffDensity(glm::dvec3(index.y, kPuffVoxels - 1 - index.x, index.z)); });
+  const volume::BrickGrid turned =
+      gridOf(glm::ivec3(kPuffVoxels), glm::ivec3(0), upright.worldFromIndex * turn, [](const glm::ivec3& index) {
+        return puffDensity(glm::dvec3(index.y, kPuffVoxels - 1 - index.x, index.z));
+      });
   const Pictures pictures(puffScene(upright));
   pictures.expectSame(puffScene(turned));
   volume::BrickGrid wrong = turned;
@@ -193,24 +195,28 @@ TEST(Invariance, OfComplementaryGrids) {
     });
   };
   TestScene both = puffScene(share(true, glm::ivec3(kPuffVoxels), glm::ivec3(0)));
-  both.grid(share(false, {kPuffVoxels, kPuffVoxels - 2, kPuffVoxels}, {0, 2, 0}), 1.0, 0.9).phase = henyeyGreenstein(0.3);
+  both.grid(share(false, {kPuffVoxels, kPuffVoxels - 2, kPuffVoxels}, {0, 2, 0}), 1.0, 0.9).phase =
+      henyeyGreenstein(0.3);
   const Pictures pictures(puffScene(puffGrid()));
   pictures.expectSame(both);
-  both.volumes.grids[1] = share(false, {kPuffVoxels, kPuffVoxels - 4, kPuffVoxels}, {0, 4, 0}); // planted: some voxels are lost
+  both.volumes.grids[1] =
+      share(false, {kPuffVoxels, kPuffVoxels - 4, kPuffVoxels}, {0, 4, 0}); // planted: some voxels are lost
   pictures.expectDifferent(both);
 }
 
 /// A file cut in two by clip boxes between two layers of voxels, each rounded outwards to its last own one.
 TEST(Invariance, OfAVolumeCutInTwoByClipBoxes) {
-  const volume::BrickGrid whole = volume::loadGrid("volumes/plume.vdb", {.storage = volume::Storage::Float});
+  volume::LoadOptions load;
+  load.storage = volume::Storage::Float;
+  const volume::BrickGrid whole = volume::loadGrid("volumes/plume.vdb", load);
   const Bounds3 bounds = whole.worldBounds();
   const double size = glm::length(bounds.size());
   const int last = (whole.indexMin.y + whole.indexMax.y) / 2; // layer of the first part
   const auto layer = [&](double y) { return glm::dvec3(whole.worldFromIndex * glm::dvec4(0.0, y, 0.0, 1.0)).y; };
   const auto part = [&](double low, double high) {
-    return volume::loadGrid("volumes/plume.vdb", {.storage = volume::Storage::Float,
-                                                  .clip = Bounds3{{bounds.min.x - size, low, bounds.min.z - size},
-                                                                  {bounds.max.x + size, high, bounds.max.z + size}}});
+    load.clip =
+        Bounds3{{bounds.min.x - size, low, bounds.min.z - size}, {bounds.max.x + size, high, bounds.max.z + size}};
+    return volume::loadGrid("volumes/plume.vdb", load);
   };
   TestScene stage({16, 16});
   stage.perspective(bounds.centre() + size * glm::dvec3(0.3, 0.2, 1.2), bounds.centre(), 45.0);
@@ -222,7 +228,7 @@ TEST(Invariance, OfAVolumeCutInTwoByClipBoxes) {
   two.grid(part(layer(last + 1.3), bounds.max.y + size), 8.0 / size, 0.95);
   const Pictures pictures(one);
   pictures.expectSame(two);
-  two.volumes.grids[1] = part(layer(last + 2.3), bounds.max.y + size); // planted: one layer is lost
+  two.volumes.grids[1] = part(layer(last + 8.3), bounds.max.y + size); // planted: some layers are lost
   pictures.expectDifferent(two);
 }
 
@@ -244,7 +250,8 @@ TEST(Trackers, AgreeOnTheProjectsVolumes) {
     delta.estimator.deltaTracking = true;
     for (const MomentOptions& options : {delta, eachMethod({.firstSeed = 100001}).back()}) {
       EXPECT_AGREES(tileTest(reference, renderMoments(test.scene, test.volumes, options))) << name << nameOf(options);
-      EXPECT_DIFFERS(tileTest(reference, renderMoments(dense.scene, dense.volumes, options))) << name << nameOf(options);
+      EXPECT_DIFFERS(tileTest(reference, renderMoments(dense.scene, dense.volumes, options)))
+          << name << nameOf(options);
     }
   }
 }

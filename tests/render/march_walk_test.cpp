@@ -52,7 +52,7 @@ BrickGrid islands(const glm::dmat4& worldFromIndex) {
 struct RayScale {
   double maximum = 0.0;   ///< of the field in the cells that the ray crosses, and in those beside them
   double length = 0.0;    ///< in the field's bounds, world units
-  double reach = 0.0;     ///< largest coordinate that a float must hold on the way, voxels
+  double reach = 0.0;     ///< what floats must add up on the way, voxels
   double crossings = 0.0; ///< planes of cells between where it enters the bounds and where it leaves them
 };
 
@@ -83,8 +83,15 @@ public:
     scale.length = span.y - span.x;
     const glm::dvec3 way = glm::abs(ray.direction) * scale.length;
     scale.crossings = std::ceil(way.x) + std::ceil(way.y) + std::ceil(way.z);
-    const glm::dvec3 first = glm::abs(ray.origin - glm::dvec3(grid_.firstVoxel));
-    scale.reach = std::max({first.x, first.y, first.z}) + glm::length(ray.direction) * span.y;
+    // Voxel space is a sum of products of what lies between the ray's origin and the scene's centre.
+    const glm::dvec3 centre = grid_.worldBounds().centre();
+    const glm::dvec3 away = glm::abs(world.origin - centre);
+    const glm::dvec3 middle(indexFromWorld_ * glm::dvec4(centre, 1.0));
+    glm::dvec3 terms = glm::abs(middle - glm::dvec3(grid_.firstVoxel));
+    for (int axis = 0; axis < 3; ++axis) {
+      terms += glm::abs(glm::dvec3(indexFromWorld_[axis])) * away[axis];
+    }
+    scale.reach = std::max({terms.x, terms.y, terms.z}) + glm::length(ray.direction) * span.y;
     const glm::ivec3 low(bounds.min);
     const glm::ivec3 high(bounds.max);
     walkCells(ray, low - 1, high + 1, 1, span, [&](const glm::ivec3& cell, double, double) {
@@ -162,8 +169,9 @@ Findings judge(const WalkCase& walk, const MarchRays& rays, const std::vector<in
     const double tolerance = depthTolerance(scale) + product;
     single[i].worst = error == 0.0 ? 0.0 : error / tolerance;
     single[i].lost = single[i].worst <= 1.0 ? 0 : 1;
-    // Either side of a plane may be taken at both ends, and the way in is a step of a march.
-    single[i].longer = double(result.steps) > scale.crossings + 6.0 ? 1 : 0;
+    // Either side of a plane may be taken at both ends, and the way in is a step of a march. A ray in a plane may find
+    // itself before that plane again wherever a brick is skipped, and crosses it once more.
+    single[i].longer = double(result.steps) > 1.125 * scale.crossings + 9.0 ? 1 : 0;
     single[i].cut = result.cut;
   });
   Findings all;

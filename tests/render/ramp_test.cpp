@@ -9,9 +9,8 @@
 #include "support/render_scenes.h"
 #include "volume/depth.h"
 
-#include <gtest/gtest.h>
-
 #include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -64,19 +63,23 @@ Verdict judge(const std::vector<SegmentEstimate>& estimates, const std::vector<d
   }
   const double excess = std::max(0.0, std::abs(sum) - 2e-6 * total) / std::sqrt(variance);
   verdict.resolution = std::sqrt(variance) / total;
-  verdict.familyP = film::sidakFamilyP(std::min(smallest, film::normalTwoSidedP(excess)), double(estimates.size()) + 1.0);
+  verdict.familyP =
+      film::sidakFamilyP(std::min(smallest, film::normalTwoSidedP(excess)), double(estimates.size()) + 1.0);
   return verdict;
 }
 
 volume::BrickGrid ramp(int axis, const glm::dmat4& worldFromIndex) {
-  return gridOf(glm::ivec3(kRampVoxels), kRampFirst, worldFromIndex, [axis](const glm::ivec3& index) { return 0.02 + 0.01 * (index[axis] - kRampFirst[axis]); });
+  return gridOf(glm::ivec3(kRampVoxels), kRampFirst, worldFromIndex,
+                [axis](const glm::ivec3& index) { return 0.02 + 0.01 * (index[axis] - kRampFirst[axis]); });
 }
 
 /// Segments between random points within the voxel centres, with A4's closed form.
 Expected rampSegments(int axis, const glm::dmat4& worldFromIndex, double densityScale) {
   std::mt19937 random(17);
   std::uniform_real_distribution<double> uniform(0.0, kRampVoxels - 1.0);
-  const auto point = [&] { return glm::dvec3(kRampFirst) + glm::dvec3(uniform(random), uniform(random), uniform(random)); };
+  const auto point = [&] {
+    return glm::dvec3(kRampFirst) + glm::dvec3(uniform(random), uniform(random), uniform(random));
+  };
   const auto density = [&](const glm::dvec3& index) { return 0.02 + 0.01 * (index[axis] - kRampFirst[axis]); };
   Expected expected;
   for (int i = 0; i < 64; ++i) {
@@ -124,10 +127,13 @@ TEST(LinearRamp, TransmittancePictureUnderEveryMap) {
     const OracleScene oracle(test.scene, test.volumes);
     const auto reference = oracle.transmittancePicture(8);
     for (const MomentOptions& options : eachMethod({.replicates = 64})) {
-      EXPECT_AGREES(imageTest(renderMoments(test.scene, test.volumes, options), meanOf(reference), kTransmittance, 1e-4)) << map.name << nameOf(options);
+      EXPECT_AGREES(
+          imageTest(renderMoments(test.scene, test.volumes, options), meanOf(reference), kTransmittance, 1e-4))
+          << map.name << nameOf(options);
       const MomentOptions bad = withBug(options, interop::kBugHalfVoxel);
       // The picture's mean sees half a voxel; its pixels do even where the mean does not change.
-      EXPECT_DIFFERS(pixelTest(renderMoments(test.scene, test.volumes, bad), reference, kTransmittance, 1e-3)) << map.name << nameOf(options);
+      EXPECT_DIFFERS(pixelTest(renderMoments(test.scene, test.volumes, bad), reference, kTransmittance, 1e-3))
+          << map.name << nameOf(options);
     }
   }
 }
@@ -160,14 +166,16 @@ void checkAgainstRegularTracking(const volume::BrickGrid& grid, double depth, co
   test.grid(grid, depth / median);
   Expected expected{randomSegments(grid, 5, 1000), {}};
   for (const ProbeSegment& segment : expected.segments) {
-    expected.transmittance.push_back(std::exp(-depth / median * volume::exactOpticalDepth(grid, segment.origin, segment.direction, 0.0, segment.tMax)));
+    expected.transmittance.push_back(std::exp(
+        -depth / median * volume::exactOpticalDepth(grid, segment.origin, segment.direction, 0.0, segment.tMax)));
   }
   for (const std::uint32_t mode : {kCollide, kTransmit}) {
     for (const bool delta : {false, true}) {
       if (mode == kTransmit && delta) {
         continue; // the same code
       }
-      const WalkReport report = WalkProbe(test, {.deltaTracking = delta}).run(expected.segments, {.walks = 32 * effort(), .mode = mode});
+      const WalkReport report =
+          WalkProbe(test, {.deltaTracking = delta}).run(expected.segments, {.walks = 32 * effort(), .mode = mode});
       EXPECT_AGREES(judge(report.segments, expected.transmittance)) << "mode " << mode << " delta " << delta;
       EXPECT_EQ(report.exceeded, 0.0);
     }
@@ -209,7 +217,9 @@ TEST(RegularTracking, AgreesOnTheUsersVolumes) {
 double exceededIn(const volume::BrickGrid& grid, std::uint32_t bug, double& lookups) {
   TestScene test;
   test.grid(grid, 0.05);
-  const WalkReport report = WalkProbe(test, {.deltaTracking = true, .plantedBug = bug}).run(randomSegments(grid, 9, 256), {.invocationsPerRay = 32, .walks = 64, .mode = kCollide});
+  const WalkReport report =
+      WalkProbe(test, {.deltaTracking = true, .plantedBug = bug})
+          .run(randomSegments(grid, 9, 256), {.invocationsPerRay = 32, .walks = 64, .mode = kCollide});
   lookups = report.lookups;
   return report.exceeded;
 }
@@ -231,7 +241,8 @@ TEST(Majorants, WithoutTheSupportAreCaught) {
   volume::BrickGrid grid = spikyGrid({45, 37, 41}, 3, volume::Storage::Float, glm::dmat4(1.0));
   // The planted bug: maxima over a brick's own voxels only, without the layer that its lookups share with the next one.
   for (std::size_t b = 0; b < grid.bricks.size(); ++b) {
-    const glm::ivec3 brick(int(b) % grid.brickCount.x, int(b) / grid.brickCount.x % grid.brickCount.y, int(b) / (grid.brickCount.x * grid.brickCount.y));
+    const glm::ivec3 brick(int(b) % grid.brickCount.x, int(b) / grid.brickCount.x % grid.brickCount.y,
+                           int(b) / (grid.brickCount.x * grid.brickCount.y));
     float own = 0.0f;
     for (int i = 0; i < volume::kBrickVoxels; ++i) {
       own = std::max(own, grid.voxel(grid.firstVoxel + 8 * brick + glm::ivec3(i & 7, i >> 3 & 7, i >> 6)));

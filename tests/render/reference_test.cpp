@@ -20,10 +20,10 @@ struct AirlightRow {
   double sigmaT, albedo, g, d, h, tMax, radiance;
 };
 constexpr AirlightRow kRows[] = {
-    {0.1, 0.9, 0.0, 5.0, 1.0, 20.0, 0.0103598185685},   {0.1, 0.9, 0.7, 5.0, 1.0, 20.0, 0.0153156256823},
-    {0.1, 0.9, -0.5, 5.0, 1.0, 20.0, 0.0107792022829},  {1.0, 0.5, 0.3, 2.0, 0.1, 10.0, 0.165747502219},
-    {1.0, 0.5, 0.3, 2.0, 0.001, 10.0, 18.9658564515},   {0.01, 1.0, 0.9, 100.0, 3.0, 1000.0, 0.00142365682824},
-    {5.0, 0.99, 0.0, 0.5, 0.05, 4.0, 1.32831277621},    {0.0001, 1.0, 0.0, 10.0, 0.5, 100.0, 4.90580330352e-5},
+    {0.1, 0.9, 0.0, 5.0, 1.0, 20.0, 0.0103598185685},     {0.1, 0.9, 0.7, 5.0, 1.0, 20.0, 0.0153156256823},
+    {0.1, 0.9, -0.5, 5.0, 1.0, 20.0, 0.0107792022829},    {1.0, 0.5, 0.3, 2.0, 0.1, 10.0, 0.165747502219},
+    {1.0, 0.5, 0.3, 2.0, 0.001, 10.0, 18.9658564515},     {0.01, 1.0, 0.9, 100.0, 3.0, 1000.0, 0.00142365682824},
+    {5.0, 0.99, 0.0, 0.5, 0.05, 4.0, 1.32831277621},      {0.0001, 1.0, 0.0, 10.0, 0.5, 100.0, 4.90580330352e-5},
     {0.25, 0.8, 0.85, 3.0, 2.0, 1000.0, 0.00148568044267}};
 
 /// The footprint of every pixel is the axis itself: 1e-6 degrees.
@@ -45,14 +45,16 @@ TEST(Airlight, QuadratureReproducesTheTable) {
   for (const AirlightRow& row : kRows) {
     const TestScene test = airlight(row);
     const OracleScene oracle(test.scene, test.volumes, {.relative = 1e-11});
-    EXPECT_NEAR(oracle.radiance({glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 1.0)}) / row.radiance, 1.0, 1e-9) << row.radiance;
+    EXPECT_NEAR(oracle.radiance({glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 1.0)}) / row.radiance, 1.0, 1e-9)
+        << row.radiance;
   }
 }
 
 TEST(Airlight, SingleRayOfEveryRow) {
   for (const MomentOptions& options : eachMethod()) {
     for (const AirlightRow& row : kRows) {
-      EXPECT_AGREES(airlightVerdict(row, options)) << nameOf(options) << "\nsigma_t " << row.sigmaT << " g " << row.g << " h " << row.h;
+      EXPECT_AGREES(airlightVerdict(row, options))
+          << nameOf(options) << "\nsigma_t " << row.sigmaT << " g " << row.g << " h " << row.h;
     }
   }
 }
@@ -83,10 +85,12 @@ TEST(Airlight, PictureAgreesWithQuadratureOverEveryFootprint) {
   const auto reference = oracle.picture([&](const OracleRay& ray) { return oracle.radiance(ray); }, 8);
   for (const MomentOptions& options : eachMethod()) {
     const Moments moments = renderMoments(test.scene, test.volumes, options);
-    EXPECT_AGREES(pixelTest(moments, reference, 0, 1e-4)) << nameOf(options); // 1e-4: of the footprint's quadrature near the light
+    EXPECT_AGREES(pixelTest(moments, reference, 0, 1e-4))
+        << nameOf(options); // 1e-4: of the footprint's quadrature near the light
     EXPECT_AGREES(imageTest(moments, meanOf(reference), 0, 2e-5)) << nameOf(options);
     const MomentOptions bad = withBug(options, interop::kBugPhaseSign);
-    EXPECT_DIFFERS(imageTest(renderMoments(test.scene, test.volumes, bad), meanOf(reference), 0, 2e-5)) << nameOf(options);
+    EXPECT_DIFFERS(imageTest(renderMoments(test.scene, test.volumes, bad), meanOf(reference), 0, 2e-5))
+        << nameOf(options);
   }
 }
 
@@ -97,12 +101,14 @@ TEST(Airlight, GridOfConstantDensity) {
     TestScene test({16, 16});
     test.perspective({0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, 1e-6);
     const double side = 0.5 * row.tMax;
-    test.grid(constantGrid(21, {-side, -side, -0.1 * row.tMax}, {side, side, row.tMax}, 1.0), row.sigmaT, row.albedo).phase = henyeyGreenstein(row.g);
+    test.grid(constantGrid(21, {-side, -side, -0.1 * row.tMax}, {side, side, row.tMax}, 1.0), row.sigmaT, row.albedo)
+        .phase = henyeyGreenstein(row.g);
     test.point({row.h, 0.0, row.d});
     const OracleScene oracle(test.scene, test.volumes, {.relative = 1e-8});
     const double reference = oracle.radiance({glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 1.0)});
     for (const MomentOptions& options : eachTracker({.replicates = 64})) {
-      EXPECT_AGREES(imageTest(renderMoments(test.scene, test.volumes, options), reference, 0, 2e-5)) << "\nrow " << index + 1 << nameOf(options);
+      EXPECT_AGREES(imageTest(renderMoments(test.scene, test.volumes, options), reference, 0, 2e-5))
+          << "\nrow " << index + 1 << nameOf(options);
     }
   }
 }
@@ -114,7 +120,8 @@ std::vector<double> slabReference(const glm::uvec2& size, double sigmaT, double 
   const double u = 0.5 * sigmaT * dy;
   for (std::uint32_t row = 0; row < size.y; ++row) {
     const double y = 1.0 - (row + 0.5) * dy;
-    const double value = albedo / (4.0 * pi) * irradiance * std::exp(-sigmaT * (1.0 - y)) * -std::expm1(-2.0 * sigmaT) * std::sinh(u) / u;
+    const double value = albedo / (4.0 * pi) * irradiance * std::exp(-sigmaT * (1.0 - y)) * -std::expm1(-2.0 * sigmaT) *
+                         std::sinh(u) / u;
     reference.insert(reference.end(), size.x, value);
   }
   return reference;
@@ -159,7 +166,8 @@ TEST(DirectionalLightOnABox, GridAgreesInEveryPixelStorageAndTracker) {
       const Moments moments = renderMoments(test.scene, test.volumes, options);
       EXPECT_AGREES(pixelTest(moments, reference, 0, 3e-4)) << volume::storageName(storage) << nameOf(options);
       EXPECT_AGREES(imageTest(moments, meanOf(reference), 0, 1e-4)) << volume::storageName(storage) << nameOf(options);
-      EXPECT_AGREES(pixelTest(moments, transmittance, kTransmittance, 1e-4)) << volume::storageName(storage) << nameOf(options);
+      EXPECT_AGREES(pixelTest(moments, transmittance, kTransmittance, 1e-4))
+          << volume::storageName(storage) << nameOf(options);
     }
   }
   for (const MomentOptions& options : eachMethod()) {
@@ -170,8 +178,8 @@ TEST(DirectionalLightOnABox, GridAgreesInEveryPixelStorageAndTracker) {
 
 TEST(PhaseFunctions, EveryModelAgreesWithQuadratureInASlab) {
   const std::vector<scene::Phase> phases = {
-      {PhaseId::Isotropic, {}},           {PhaseId::HenyeyGreenstein, {0.6, 0, 0, 0}}, {PhaseId::TwoLobe, {0.8, -0.3, 0.6, 0}},
-      {PhaseId::Rayleigh, {}},            {PhaseId::Draine, {0.5, 20.0, 0, 0}},        {PhaseId::Mie, {12.0, 0, 0, 0}}};
+      {PhaseId::Isotropic, {}}, {PhaseId::HenyeyGreenstein, {0.6, 0, 0, 0}}, {PhaseId::TwoLobe, {0.8, -0.3, 0.6, 0}},
+      {PhaseId::Rayleigh, {}},  {PhaseId::Draine, {0.5, 20.0, 0, 0}},        {PhaseId::Mie, {12.0, 0, 0, 0}}};
   for (const scene::Phase& phase : phases) {
     TestScene test({4, 4});
     // No light in or near the picture: the aureoles of peaked phase functions would need a finer quadrature.
@@ -183,10 +191,12 @@ TEST(PhaseFunctions, EveryModelAgreesWithQuadratureInASlab) {
     const OracleScene oracle(test.scene, test.volumes, {.relative = 1e-6});
     const auto reference = oracle.picture([&](const OracleRay& ray) { return oracle.radiance(ray); }, 4);
     for (const MomentOptions& options : eachMethod({.replicates = 128, .samples = 32})) {
-      EXPECT_AGREES(imageTest(renderMoments(test.scene, test.volumes, options), meanOf(reference), 0, 1e-4)) << nameOf(options) << "\nphase " << static_cast<unsigned>(phase.id);
+      EXPECT_AGREES(imageTest(renderMoments(test.scene, test.volumes, options), meanOf(reference), 0, 1e-4))
+          << nameOf(options) << "\nphase " << static_cast<unsigned>(phase.id);
       if (phase.id != PhaseId::Isotropic && phase.id != PhaseId::Rayleigh) {
         const MomentOptions bad = withBug(options, interop::kBugPhaseSign);
-        EXPECT_DIFFERS(imageTest(renderMoments(test.scene, test.volumes, bad), meanOf(reference), 0, 1e-4)) << nameOf(options);
+        EXPECT_DIFFERS(imageTest(renderMoments(test.scene, test.volumes, bad), meanOf(reference), 0, 1e-4))
+            << nameOf(options);
       }
     }
   }

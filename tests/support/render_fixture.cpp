@@ -15,6 +15,8 @@
 namespace tyndall::test {
 namespace {
 
+constexpr std::uint32_t kTile = 16;
+
 void reportMessages() {
   static std::size_t reported = 0;
   const std::vector<std::string>& messages = probeDevice().messages();
@@ -36,8 +38,9 @@ std::vector<std::uint32_t> pixelsOf(const glm::uvec2& size, const std::vector<bo
 }
 
 /// Means of the pixels over the samples of one seed.
-std::vector<std::array<double, 4>> renderReplicate(render::Estimator& estimator, const std::vector<std::uint32_t>& pixels,
-                                                   std::uint32_t samples, std::uint32_t seed) {
+std::vector<std::array<double, 4>> renderReplicate(render::Estimator& estimator,
+                                                   const std::vector<std::uint32_t>& pixels, std::uint32_t samples,
+                                                   std::uint32_t seed) {
   std::vector<std::array<double, 4>> means(pixels.size(), std::array<double, 4>{});
   for (std::uint32_t first = 0; first < samples; first += film::kBatchSamples) {
     const std::uint32_t count = std::min(film::kBatchSamples, samples - first);
@@ -92,21 +95,22 @@ private:
   std::size_t count_ = 0;
 };
 
-/// Difference of two tiles' means with Welch's and Satterthwaite's degrees of freedom; pixels are independent, because
-/// their random streams differ.
-struct TileSums {
-  double difference = 0.0;
-  double scale = 0.0;
-  double variance = 0.0;
-  double spread = 0.0;   ///< sum of variance^2 / degrees
+/// Tiles across and down; the last ones may be cut off.
+glm::uvec2 tilesOf(const glm::uvec2& size) { return (size + kTile - 1u) / kTile; }
 
-  void add(const film::SampleSummary& pixel) {
-    const double part = pixel.variance / pixel.count;
-    variance += part;
-    spread += part * part / (pixel.count - 1.0);
+/// Sums over the pixels of each tile, divided by the pixels of the image.
+std::vector<std::array<double, 4>> tileMeans(const glm::uvec2& size, std::span<const std::uint32_t> pixels,
+                                             const std::vector<std::array<double, 4>>& means) {
+  const glm::uvec2 tiles = tilesOf(size);
+  std::vector<std::array<double, 4>> result(std::size_t(tiles.x) * tiles.y);
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    std::array<double, 4>& tile = result[(pixels[i] & 0xffffu) / kTile + tiles.x * ((pixels[i] >> 16) / kTile)];
+    for (std::size_t channel = 0; channel < 4; ++channel) {
+      tile[channel] += means[i][channel] / double(pixels.size());
+    }
   }
-  double degrees() const { return spread > 0.0 ? variance * variance / spread : 1.0; }
-};
+  return result;
+}
 
 } // namespace
 
@@ -141,8 +145,11 @@ std::string nameOf(const MomentOptions& options) {
 
 film::SampleSummary Moments::image(int channel) const {
   std::vector<double> values;
-  for (const auto& means : imageMeans) {
-    values.push_back(means[static_cast<std::size_t>(channel)]);
+  for (const auto& replicate : tileMeans) {
+    values.push_back(0.0);
+    for (const auto& tile : replicate) {
+      values.back() += tile[static_cast<std::size_t>(channel)];
+    }
   }
   return film::summarise(values);
 }
@@ -161,18 +168,17 @@ Moments renderMoments(const scene::Scene& scene, const gpu_scene::VolumeSet& vol
   // Welford's running moments: the values of all replicates would not fit for big pictures.
   for (std::uint32_t replicate = 0; replicate < result.replicates; ++replicate) {
     const auto means = renderReplicate(*estimator, pixels, options.samples, options.firstSeed + replicate);
-    std::array<double, 4> image{};
     for (std::size_t i = 0; i < pixels.size(); ++i) {
       for (std::size_t channel = 0; channel < 4; ++channel) {
-        film::SampleSummary& summary = result.pixels[(pixels[i] & 0xffffu) + scene.film.size.x * (pixels[i] >> 16)][channel];
+        film::SampleSummary& summary =
+            result.pixels[(pixels[i] & 0xffffu) + scene.film.size.x * (pixels[i] >> 16)][channel];
         const double delta = means[i][channel] - summary.mean;
         summary.count += 1.0;
         summary.mean += delta / summary.count;
         summary.variance += delta * (means[i][channel] - summary.mean);
-        image[channel] += means[i][channel] / double(pixels.size());
       }
     }
-    result.imageMeans.push_back(image);
+    result.tileMeans.push_back(tileMeans(scene.film.size, pixels, means));
   }
   for (auto& pixel : result.pixels) {
     for (film::SampleSummary& summary : pixel) {
@@ -190,7 +196,8 @@ Moments renderMoments(const scene::Scene& scene, const gpu_scene::VolumeSet& vol
 }
 
 std::string Verdict::text() const {
-  return fmt::format("family p {:.3g}, worst at {}: {:.1f} standard errors, {:+.4g} % of the reference (one standard error is {:.3g} %)",
+  return fmt::format("family p {:.3g}, worst at {}: {:.1f} standard errors, {:+.4g} % of the reference (one standard "
+                     "error is {:.3g} %)",
                      familyP, worst, worstT, 100.0 * bias, 100.0 * resolution);
 }
 
@@ -203,44 +210,51 @@ Verdict pixelTest(const Moments& moments, const std::vector<double>& reference, 
     const film::SampleSummary& pixel = moments.pixels[i][static_cast<std::size_t>(channel)];
     const double difference = pixel.mean - reference[i];
     double t = 0.0;
-    const double p = differenceP(difference, tolerance * std::abs(reference[i]), standardErrorOf(pixel), pixel.count - 1.0, t);
+    const double p =
+        differenceP(difference, tolerance * std::abs(reference[i]), standardErrorOf(pixel), pixel.count - 1.0, t);
     family.add(i, p, t, difference / reference[i]);
   }
   Verdict verdict = family.verdict();
-  verdict.resolution = standardErrorOf(moments.pixels[verdict.worst][static_cast<std::size_t>(channel)]) / std::abs(reference[verdict.worst]);
+  verdict.resolution = standardErrorOf(moments.pixels[verdict.worst][static_cast<std::size_t>(channel)]) /
+                       std::abs(reference[verdict.worst]);
   return verdict;
 }
 
 Verdict imageTest(const Moments& moments, double reference, int channel, double tolerance) {
   const film::SampleSummary image = moments.image(channel);
   Verdict verdict;
-  verdict.familyP = differenceP(image.mean - reference, tolerance * std::abs(reference), standardErrorOf(image), image.count - 1.0, verdict.worstT);
+  verdict.familyP = differenceP(image.mean - reference, tolerance * std::abs(reference), standardErrorOf(image),
+                                image.count - 1.0, verdict.worstT);
   verdict.bias = (image.mean - reference) / reference;
   verdict.resolution = standardErrorOf(image) / std::abs(reference);
   return verdict;
 }
 
+film::SampleSummary Moments::tile(std::size_t tile, int channel) const {
+  std::vector<double> values;
+  for (const auto& replicate : tileMeans) {
+    values.push_back(replicate[tile][static_cast<std::size_t>(channel)]);
+  }
+  return film::summarise(values);
+}
+
 Verdict tileTest(const Moments& a, const Moments& b, double tolerance) {
-  constexpr std::uint32_t kTile = 16;
-  const glm::uvec2 tiles = (a.size + kTile - 1u) / kTile;
   Family family;
   for (int channel = 0; channel < 4; ++channel) {
-    std::vector<TileSums> sums(std::size_t(tiles.x) * tiles.y);
-    for (std::size_t i = 0; i < a.pixels.size(); ++i) {
-      TileSums& tile = sums[i % a.size.x / kTile + tiles.x * (i / a.size.x / kTile)];
-      const film::SampleSummary& first = a.pixels[i][static_cast<std::size_t>(channel)];
-      const film::SampleSummary& second = b.pixels[i][static_cast<std::size_t>(channel)];
-      tile.difference += first.mean - second.mean;
-      tile.scale += 0.5 * (std::abs(first.mean) + std::abs(second.mean));
-      tile.add(first);
-      tile.add(second);
-    }
-    for (std::size_t tile = 0; tile < sums.size(); ++tile) {
-      const TileSums& sum = sums[tile];
+    for (std::size_t tile = 0; tile < a.tileMeans.front().size(); ++tile) {
+      const film::SampleSummary first = a.tile(tile, channel);
+      const film::SampleSummary second = b.tile(tile, channel);
+      const double scale = 0.5 * (std::abs(first.mean) + std::abs(second.mean));
+      // Welch's t with Satterthwaite's degrees of freedom.
+      const double u = first.variance / first.count;
+      const double v = second.variance / second.count;
+      const double spread = u * u / (first.count - 1.0) + v * v / (second.count - 1.0);
+      const double degrees = spread > 0.0 ? (u + v) * (u + v) / spread : 1.0;
+      const double difference = first.mean - second.mean;
       double t = 0.0;
-      const double p = differenceP(sum.difference, tolerance * sum.scale, std::sqrt(sum.variance), sum.degrees(), t);
-      const double inverse = sum.scale > 0.0 ? 1.0 / sum.scale : 0.0;
-      family.add(tile, p, t, sum.difference * inverse, std::sqrt(sum.variance) * inverse);
+      const double p = differenceP(difference, tolerance * scale, std::sqrt(u + v), degrees, t);
+      const double inverse = scale > 0.0 ? 1.0 / scale : 0.0;
+      family.add(tile, p, t, difference * inverse, std::sqrt(u + v) * inverse);
     }
   }
   return family.verdict();

@@ -26,11 +26,11 @@ std::uint32_t effort();
 inline constexpr int kTransmittance = 3;
 
 struct MomentOptions {
-  std::uint32_t replicates = 32;    ///< independent seeds, times effort()
-  std::uint32_t samples = 16;       ///< per pixel and replicate; a multiple of 16 if above it
+  std::uint32_t replicates = 32; ///< independent seeds, times effort()
+  std::uint32_t samples = 16;    ///< per pixel and replicate; a multiple of 16 if above it
   std::uint32_t firstSeed = 1;
   render::EstimatorOptions estimator{};
-  std::vector<bool> skip{};         ///< pixels (x fastest) that are not rendered and stay 0; empty: none
+  std::vector<bool> skip{}; ///< pixels (x fastest) that are not rendered and stay 0; empty: none
 };
 
 /// `options` for every method: as they are for the tracking, with a quarter of the replicates (8 at least) for the
@@ -49,24 +49,30 @@ struct Moments {
   glm::uvec2 size{0};
   std::uint32_t replicates = 0;
   std::vector<std::array<film::SampleSummary, 4>> pixels;
-  std::vector<std::array<double, 4>> imageMeans;   ///< per replicate
+  /// Per replicate and 16x16 tile (x fastest), the tile's share of the image's mean: pixels need not be independent,
+  /// because sky directions are shared by all of a batch.
+  std::vector<std::vector<std::array<double, 4>>> tileMeans;
   render::Totals totals;
 
-  double mean(std::size_t pixel, int channel = 0) const { return pixels[pixel][static_cast<std::size_t>(channel)].mean; }
+  double mean(std::size_t pixel, int channel = 0) const {
+    return pixels[pixel][static_cast<std::size_t>(channel)].mean;
+  }
   film::SampleSummary image(int channel = 0) const;
+  film::SampleSummary tile(std::size_t tile, int channel) const;
 };
 
 /// Renders every pixel, also those that the coverage mask would leave out. Validation messages, samples that are not
 /// finite and lookups above their majorant are test failures, the latter two only without a planted bug.
-Moments renderMoments(const scene::Scene& scene, const gpu_scene::VolumeSet& volumes = {}, const MomentOptions& options = {});
+Moments renderMoments(const scene::Scene& scene, const gpu_scene::VolumeSet& volumes = {},
+                      const MomentOptions& options = {});
 
 /// What a test of a family found.
 struct Verdict {
-  double familyP = 1.0;      ///< Sidak; below kFamilyRate: different
-  double worstT = 0.0;       ///< in standard errors
-  std::size_t worst = 0;     ///< pixel or tile
-  double bias = 0.0;         ///< (estimate - reference) / reference of the worst
-  double resolution = 0.0;   ///< relative bias of the image mean (or of the worst one) that is one standard error
+  double familyP = 1.0;    ///< Sidak; below kFamilyRate: different
+  double worstT = 0.0;     ///< in standard errors
+  std::size_t worst = 0;   ///< pixel or tile
+  double bias = 0.0;       ///< (estimate - reference) / reference of the worst
+  double resolution = 0.0; ///< relative bias of the image mean (or of the worst one) that is one standard error
 
   bool agrees() const { return familyP >= kFamilyRate; }
   std::string text() const;
@@ -74,7 +80,8 @@ struct Verdict {
 
 /// Student's t of every pixel against its reference value. `tolerance` is a relative error that float arithmetic is
 /// granted; pixels whose reference is NaN are left out.
-Verdict pixelTest(const Moments& moments, const std::vector<double>& reference, int channel = 0, double tolerance = 2e-6);
+Verdict pixelTest(const Moments& moments, const std::vector<double>& reference, int channel = 0,
+                  double tolerance = 2e-6);
 /// The mean over the image against `reference`: what sees the smallest bias.
 Verdict imageTest(const Moments& moments, double reference, int channel = 0, double tolerance = 2e-6);
 /// Welch's t of 16x16 tiles of two configurations (the image itself if it is smaller), all four channels.

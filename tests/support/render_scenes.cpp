@@ -68,7 +68,8 @@ void TestScene::point(const glm::dvec3& position, double intensity) {
 }
 
 void TestScene::sun(const glm::dvec3& direction, double irradiance, double angularDiameter) {
-  scene.lights.push_back({"sun", scene::SunLight{glm::normalize(direction), glm::dvec3(irradiance), angularDiameter}, false});
+  scene.lights.push_back(
+      {"sun", scene::SunLight{glm::normalize(direction), glm::dvec3(irradiance), angularDiameter}, false});
 }
 
 void TestScene::constant(double radiance, bool visible) {
@@ -90,13 +91,16 @@ volume::BrickGrid gridOf(const glm::ivec3& size, const glm::ivec3& first, const 
   return volume::gridFromDense(values, size, first, worldFromIndex, storage);
 }
 
-volume::BrickGrid constantGrid(int count, const glm::dvec3& low, const glm::dvec3& high, double value, volume::Storage storage) {
+volume::BrickGrid constantGrid(int count, const glm::dvec3& low, const glm::dvec3& high, double value,
+                               volume::Storage storage) {
   const glm::dvec3 voxel = (high - low) / double(count - 1);
   const glm::dmat4 worldFromIndex = glm::scale(glm::translate(glm::dmat4(1.0), low), voxel);
-  return gridOf(glm::ivec3(count), glm::ivec3(0), worldFromIndex, [value](const glm::ivec3&) { return value; }, storage);
+  return gridOf(
+      glm::ivec3(count), glm::ivec3(0), worldFromIndex, [value](const glm::ivec3&) { return value; }, storage);
 }
 
-volume::BrickGrid spikyGrid(const glm::ivec3& size, unsigned seed, volume::Storage storage, const glm::dmat4& worldFromIndex) {
+volume::BrickGrid spikyGrid(const glm::ivec3& size, unsigned seed, volume::Storage storage,
+                            const glm::dmat4& worldFromIndex) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   const auto value = [&](const glm::ivec3& index) {
@@ -120,8 +124,11 @@ double puffDensity(const glm::dvec3& index) {
 
 volume::BrickGrid puffGrid(const glm::ivec3& first, volume::Storage storage) {
   const double voxel = 2.0 / (kPuffVoxels - 1);
-  const glm::dmat4 worldFromIndex = glm::scale(glm::translate(glm::dmat4(1.0), glm::dvec3(-1.0) - voxel * glm::dvec3(first)), glm::dvec3(voxel));
-  return gridOf(glm::ivec3(kPuffVoxels), first, worldFromIndex, [first](const glm::ivec3& index) { return puffDensity(glm::dvec3(index - first)); }, storage);
+  const glm::dmat4 worldFromIndex =
+      glm::scale(glm::translate(glm::dmat4(1.0), glm::dvec3(-1.0) - voxel * glm::dvec3(first)), glm::dvec3(voxel));
+  return gridOf(
+      glm::ivec3(kPuffVoxels), first, worldFromIndex,
+      [first](const glm::ivec3& index) { return puffDensity(glm::dvec3(index - first)); }, storage);
 }
 
 std::vector<NamedMap> affineMaps() {

@@ -40,13 +40,14 @@ using VoxelFunction = std::function<double(const glm::ivec3&)>;
 volume::BrickGrid gridOf(const glm::ivec3& size, const glm::ivec3& first, const glm::dmat4& worldFromIndex,
                          const VoxelFunction& value, volume::Storage storage = volume::Storage::Float);
 
-/// `count`^3 equal voxels whose outermost voxel *centres* lie on the faces of [low, high]; outside, the field falls to 0
-/// over one voxel.
+/// `count`^3 equal voxels whose outermost voxel *centres* lie on the faces of [low, high]; outside, the field falls to
+/// 0 over one voxel.
 volume::BrickGrid constantGrid(int count, const glm::dvec3& low, const glm::dvec3& high, double value,
                                volume::Storage storage = volume::Storage::Float);
 
 /// Random voxels: a few spikes among small values and empty regions. The same for the same seed.
-volume::BrickGrid spikyGrid(const glm::ivec3& size, unsigned seed, volume::Storage storage, const glm::dmat4& worldFromIndex);
+volume::BrickGrid spikyGrid(const glm::ivec3& size, unsigned seed, volume::Storage storage,
+                            const glm::dmat4& worldFromIndex);
 
 /// A puff without symmetry in [-1, 1]^3, depth about 1 through its middle; index `first` is its first voxel.
 inline constexpr int kPuffVoxels = 14;

@@ -125,7 +125,9 @@ Piece nextPiece(vec4 extent, float t) {
   }
   if (kHomogeneousMedia > 0u) {
     if (piece.media && !piece.grids) {
-      piece.t1 = max(min(piece.t1, t + homogeneousPiece(extent, t, sigmaT)), t);
+      // Never so short that the distance cannot hold it: the walk would stand still.
+      const float length = max(homogeneousPiece(extent, t, sigmaT), 2.5e-7 * abs(t));
+      piece.t1 = max(min(piece.t1, t + length), t);
     }
   }
   piece.media = piece.media || piece.grids;
