@@ -5,6 +5,7 @@
 #include "gpu_scene/lights.h"
 #include "interop/march.h"
 #include "render/march_scene.h"
+#include "render/sky_set.h"
 
 #include <algorithm>
 
@@ -14,7 +15,7 @@ namespace {
 /// Pieces of a ray that one dispatch can hold on every driver.
 constexpr std::uint32_t kMostPieces = 50000;
 /// Light caches beyond this share of the memory would rather be coarser.
-constexpr double kCacheShare = 0.25;
+constexpr double kCacheShare = 0.5;
 
 /// Why the march does not serve, or empty.
 std::string obstacle(const scene::Scene& scene, const gpu_scene::PackedMedia& media, double cellBytes, double memoryBytes) {
@@ -39,6 +40,15 @@ std::string obstacle(const scene::Scene& scene, const gpu_scene::PackedMedia& me
   return "";
 }
 
+/// The set of sky directions is too coarse for a narrow peak, and nothing else would gain from the march.
+bool trackingIsBetter(const scene::Scene& scene, const gpu_scene::PackedMedia& media) {
+  const bool sky = !scene.lights.empty() && std::none_of(scene.lights.begin(), scene.lights.end(), [](const auto& named) {
+    return std::holds_alternative<scene::PointLight>(named.light) || std::holds_alternative<scene::SunLight>(named.light);
+  });
+  return sky && std::any_of(media.media.begin(), media.media.end(),
+                            [](const interop::Medium& medium) { return peaked(medium.phase); });
+}
+
 } // namespace
 
 MethodChoice chooseMethod(const scene::Scene& scene, const gpu_scene::VolumeSet& volumes, std::optional<Method> wanted,
@@ -54,6 +64,9 @@ MethodChoice chooseMethod(const scene::Scene& scene, const gpu_scene::VolumeSet&
   }
   if (!why.empty()) {
     return {Method::Tracking, 0.0, "the march does not serve: " + why};
+  }
+  if (!wanted && trackingIsBetter(scene, media)) {
+    return {Method::Tracking, 0.0, "less variance where environments alone light a peaked phase function"};
   }
   return {Method::March, std::min(kCacheShare * memoryBytes, memoryBytes - cellBytes),
           wanted ? "as asked for" : "least variance for its time"};

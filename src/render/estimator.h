@@ -26,6 +26,7 @@ struct EstimatorOptions {
   Method method = Method::Tracking;
   bool aovs = false;
   bool deltaTracking = false;    ///< tracking: delta tracking even where the weighted walk would serve
+  std::uint32_t corrections = 4; ///< march: exact walks to lights per ray, at least 1
   bool preview = false;          ///< march: the light caches taken for true. Biased
   double cacheBytes = 256e6;     ///< march: for light caches at most
   std::uint32_t chunkPixels = 0; ///< pixels of one dispatch; 0 = by the device's kind

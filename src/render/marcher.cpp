@@ -30,7 +30,7 @@ passes::MarchSpec marchSpecFor(const gpu_scene::GpuScene& scene, const MarchPlan
   spec.kOrthographic = features.orthographic;
   spec.kBackground = features.background;
   spec.kAovs = options.aovs;
-  spec.kCorrection = !options.preview && options.plantedBug != interop::kBugNoCorrection;
+  spec.kCorrections = options.preview || options.plantedBug == interop::kBugNoCorrection ? 0 : options.corrections;
   spec.kPlantedBug = options.plantedBug;
   return spec;
 }

@@ -13,9 +13,9 @@
 namespace tyndall::render {
 namespace {
 
-constexpr float kShare = 0.15f;
-/// A lobe of this mean cosine falls to a quarter within a cell, 22 degrees.
-constexpr float kPeaked = 0.7f;
+constexpr float kShare = 0.25f;
+/// A lobe of this mean cosine halves within half a cell, 22 degrees.
+constexpr float kPeaked = 0.6f;
 /// Brightest texel over the mean radiance of a map, above which the set would meet the bright spot by luck.
 constexpr double kContrast = 30.0;
 
@@ -24,6 +24,8 @@ bool spotted(const light::EnvironmentTable& table) {
   return std::any_of(table.texels.begin(), table.texels.end(),
                      [&](const glm::vec3& texel) { return luminance(glm::dvec3(texel)) > kContrast * mean; });
 }
+
+} // namespace
 
 bool peaked(const interop::Phase& phase) {
   switch (static_cast<PhaseId>(phase.id)) {
@@ -40,8 +42,6 @@ bool peaked(const interop::Phase& phase) {
   }
   return true;
 }
-
-} // namespace
 
 std::vector<glm::vec3> skyDirections(std::uint32_t seed, std::uint32_t batch) {
   std::seed_seq mixed{seed, batch};

@@ -13,6 +13,9 @@ namespace tyndall::render {
 /// and independent of all other cells, batches and seeds. Unit, kSkyDirections of them, x fastest.
 std::vector<glm::vec3> skyDirections(std::uint32_t seed, std::uint32_t batch);
 
+/// Whether a phase function may have a peak narrower than a cell of the set.
+bool peaked(const interop::Phase& phase);
+
 /// How a sample of the march draws its direction to environments; the rest is the set's.
 struct SkyShares {
   float light = 0.0f; ///< by an environment's own sampler: where a map may hold a bright spot

@@ -10,8 +10,8 @@
 namespace tyndall::test {
 namespace {
 
-/// rRMSE that the march reaches in some 100 samples of the puff.
-constexpr double kMarchTarget = 0.02;
+/// rRMSE that the march reaches in some 100 samples or fewer.
+constexpr double kMarchTarget = 0.04;
 
 TestScene puff() {
   TestScene test({12, 12});

@@ -27,7 +27,7 @@
   SPEC(bool, kOrthographic,     9, false)                                                     \
   SPEC(bool, kBackground,      10, true)        /* a distant light is visible */              \
   SPEC(bool, kAovs,            11, false)       /* depth and albedo */                        \
-  SPEC(bool, kCorrection,      12, true)        /* false: the preview, biased */              \
+  SPEC(uint, kCorrections,     12, 2u)          /* per ray; 0: the preview, biased */         \
   SPEC(bool, kCount,           13, true)        /* cells and corrections are counted */       \
   SPEC(uint, kPlantedBug,      14, 0u)          /* tests: kBug* of interop/planted_bugs.h */
 // clang-format on

@@ -2,8 +2,8 @@
 // Single scattering along one camera ray without drawing distances: (10) to (13) of docs/theory.md.
 //
 // The ray is walked piece by piece (pieces.glsl). Transmittance along it is in closed form. Each piece takes one
-// position per beam, all at the same offset u of the piece, and reads the beam's light cache there. One position of the
-// whole ray is kept by reservoir, and its exact walk to the light corrects what the caches got wrong.
+// position per beam, all at the same offset u of the piece, and reads the beam's light cache there. A few
+// positions of the whole ray are kept by reservoir, and their exact walks to the light correct what the caches got wrong.
 #ifndef TYNDALL_MARCH_RAY_GLSL
 #define TYNDALL_MARCH_RAY_GLSL
 
@@ -33,13 +33,18 @@ struct MarchResult {
 
 // The position that the correction is taken at.
 struct Kept {
-  float weightSum;
   float weight;
   float t;
   uint beam;
   float cached;        // transmittance of the grids that the march took for true
   vec3 contribution;   // of the position for a transmittance of 1
 };
+
+const uint kKeptArray = kCorrections > 0u ? kCorrections : 1u;
+
+// Of the ray that is being marched: positions kept independently of each other, and the weights of all that were seen.
+Kept kept[kKeptArray];
+float weightSum;
 
 float mediumSigmaT(uint m, Piece piece, float f) {
   if (m < kHomogeneousMedia) {
@@ -87,7 +92,7 @@ float exactDepth(vec3 point, vec3 toLight, float distance, inout MarchResult res
 
 // One beam at its position of the piece [t0, t0 + share * (t1 - t0)], offset u. `throughput` is that of t0.
 void takeBeam(uint skyGroup, Piece piece, vec4 extinction, float share, float u, float throughput,
-              uint b, inout Kept kept, inout MarchResult result, inout Rng rng) {
+              uint b, inout MarchResult result, inout Rng rng) {
   const Beam beam = beams[b];
   if (beam.strength == vec3(0.0)) {
     return;
@@ -124,12 +129,14 @@ void takeBeam(uint skyGroup, Piece piece, vec4 extinction, float share, float u,
   }
   const float cached = exp(-cachedDepth(b, t, toLight, distance));
   result.scattered += contribution * cached;
-  if (kCorrection) {
+  if (kCorrections > 0u) {
     const bool sky = kSky && beam.group >= skyGroup;
     const float weight = max(contribution.x, max(contribution.y, contribution.z)) * (cached + (sky ? kKeepFloorSky : kKeepFloor));
-    kept.weightSum += weight;
-    if (rngFloat(rng) * kept.weightSum < weight) {
-      kept = Kept(kept.weightSum, weight, t, b, cached, contribution);
+    weightSum += weight;
+    [[unroll]] for (uint k = 0u; k < kCorrections; ++k) {
+      if (rngFloat(rng) * weightSum < weight) {
+        kept[k] = Kept(weight, t, b, cached, contribution);
+      }
     }
   }
 }
@@ -169,6 +176,7 @@ void takePiece(vec3Ptr blackbody, Piece piece, vec4 extinction, float share, flo
   }
 }
 
+// Adds a share 1 / kCorrections of the correction at a position that was kept in proportion to its weight.
 void correct(Kept kept, inout MarchResult result) {
   const vec3 point = rayOrigin + kept.t * rayDirection;
   Beam beam = beams[0];
@@ -186,14 +194,17 @@ void correct(Kept kept, inout MarchResult result) {
   }
   const float exact = exp(-exactDepth(point, toLight, distance, result));
   const float cached = kPlantedBug == kBugOtherCache ? kept.cached * 0.99 : kept.cached;
-  result.scattered += kept.contribution * ((exact - cached) * (kept.weightSum / kept.weight));
+  result.scattered += kept.contribution * ((exact - cached) * (weightSum / (kept.weight * float(kCorrections))));
   ++result.corrections;
 }
 
 // Marches one ray. `direction` is unit; `offset` is u.
 MarchResult marchRay(ScenePtr scene, MarchScenePtr march, vec3 origin, vec3 direction, Sobol sobol, inout Rng rng) {
   MarchResult result = MarchResult(vec3(0.0), 1.0, 0.0, 0.0, vec3(0.0), 0u, 0u, 0u, false);
-  Kept kept = Kept(0.0, 0.0, 0.0, 0u, 0.0, vec3(0.0));
+  weightSum = 0.0;
+  [[unroll]] for (uint k = 0u; k < kCorrections; ++k) {
+    kept[k] = Kept(0.0, 0.0, 0u, 0.0, vec3(0.0));
+  }
   const vec2 stretch = beginRay(origin, direction);
   if (stretch.x >= stretch.y) {
     return result;
@@ -229,7 +240,7 @@ MarchResult marchRay(ScenePtr scene, MarchScenePtr march, vec3 origin, vec3 dire
         const float throughput = result.transmittance * roulette;
         takePiece(blackbody, piece, extinction, share, u, throughput, result);
         [[unroll]] for (uint b = 0u; b < kBeams; ++b) {
-          takeBeam(skyGroup, piece, extinction, share, u, throughput, b, kept, result, rng);
+          takeBeam(skyGroup, piece, extinction, share, u, throughput, b, result, rng);
         }
       }
       result.transmittance *= exp(-length * cubicIntegral(extinction, share));
@@ -246,8 +257,14 @@ MarchResult marchRay(ScenePtr scene, MarchScenePtr march, vec3 origin, vec3 dire
     t = piece.t1;
   }
   result.depth += base * result.opacity;
-  if (kCorrection && kSlots > 0u && kept.weight > 0.0) {
-    correct(kept, result);
+  [[dont_unroll]] for (uint k = 0u; k < kCorrections && kSlots > 0u && weightSum > 0.0; ++k) {
+    Kept chosen = kept[0]; // selected, not indexed: an array with a computed index would lie in memory
+    [[unroll]] for (uint j = 1u; j < kCorrections; ++j) {
+      if (j == k) {
+        chosen = kept[j];
+      }
+    }
+    correct(chosen, result);
   }
   return result;
 }

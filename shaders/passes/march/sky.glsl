@@ -4,7 +4,8 @@
 // of the set, in proportion to what it is expected to give the pixel: radiance times phase function (the camera's
 // direction is all that it depends on) times the transmittance that the caches have at two places of the pixel's
 // middle ray. Beside the set stand an environment's own sampler (small bright spots) and the phase functions (narrow
-// peaks), joined by the balance heuristic: the set counts with the density D of its directions.
+// peaks), joined by the balance heuristic of what a batch has: the set's directions once, the others anew in each of its
+// samples.
 #ifndef TYNDALL_MARCH_SKY_GLSL
 #define TYNDALL_MARCH_SKY_GLSL
 
@@ -87,12 +88,9 @@ vec3 skyLightSample(ScenePtr scene, inout Rng rng) {
 float skyBalance(MarchScenePtr march, vec3 d, vec3 w, float lightPdf) {
   const float lightShare = march.at[0].skyLightShare;
   const float phaseShare = march.at[0].skyPhaseShare;
-  float sum = (1.0 - lightShare - phaseShare) * skySetDensity(w);
-  if (kPlantedBug != kBugBranchPdf) {
-    sum += lightShare * lightPdf;
-    sum += phaseShare > 0.0 ? phaseShare * meanPhase(d, w) : 0.0;
-  }
-  return sum;
+  float drawn = lightShare * lightPdf;
+  drawn += phaseShare > 0.0 ? phaseShare * meanPhase(d, w) : 0.0;
+  return skySetDensity(w) + (kPlantedBug == kBugBranchPdf ? 0.0 : float(kSobolPoints) * drawn);
 }
 
 // Fills skyWeights for camera rays about the direction `view`; they hold the transmittances to expect, above 0.
@@ -113,7 +111,7 @@ SkySample skySample(ScenePtr scene, MarchScenePtr march, vec3 d, Sobol sobol, in
   const float setShare = 1.0 - lightShare - phaseShare;
   const float choice = sobolFloat(sobol, kDimSky);
   SkySample result;
-  float pick = 1.0; // probability of the direction within its technique's draw; 1 where its density is in the balance
+  float scale = float(kSobolPoints);
   if (choice < setShare) {
     float rest = choice / setShare * skyTotal;
     uint k = 0u;
@@ -123,7 +121,8 @@ SkySample skySample(ScenePtr scene, MarchScenePtr march, vec3 d, Sobol sobol, in
     }
     result.index = k;
     result.direction = march.at[0].sky.at[k];
-    pick = skyTotal > 0.0 ? skyWeights[k] / skyTotal : 0.0;
+    const float picked = setShare * skyWeights[k];
+    scale = picked > 0.0 ? skyTotal / picked : 0.0;
   } else {
     if (choice < setShare + lightShare) {
       result.direction = skyLightSample(scene, rng);
@@ -134,7 +133,7 @@ SkySample skySample(ScenePtr scene, MarchScenePtr march, vec3 d, Sobol sobol, in
     result.index = skyCell(result.direction);
   }
   const vec4 mixture = skyMixture(scene, result.direction);
-  result.strength = pick > 0.0 ? mixture.xyz / (pick * skyBalance(march, d, result.direction, mixture.w)) : vec3(0.0);
+  result.strength = mixture.xyz * (scale / skyBalance(march, d, result.direction, mixture.w));
   return result;
 }
 
