@@ -66,7 +66,7 @@ TEST_F(Estimators, TheChoiceAndItsReasonAreSaid) {
   EXPECT_EQ(statistics("a")["estimator"]["name"], "march");
   EXPECT_EQ(statistics("a")["estimator"]["biased"], false);
   EXPECT_EQ(statistics("a")["light_caches"]["count"], 1);
-  EXPECT_EQ(statistics("a")["pipeline"]["Correction"], "on");
+  EXPECT_EQ(statistics("a")["pipeline"]["Corrections"], "4");
   EXPECT_EQ(statistics("a")["counters"]["cut_rays"], 0);
   EXPECT_EQ(header("a").at("estimator"), "march");
   EXPECT_EQ(header("a").at("estimator.biased"), "0");
@@ -104,7 +104,7 @@ TEST_F(Estimators, APreviewSaysEverywhereThatItIsBiased) {
   EXPECT_THAT(outcome.errors, HasSubstr("a.exr: is BIASED (--preview)"));
   EXPECT_THAT(render("a", "--preview --quiet").errors, HasSubstr("BIASED"));
   EXPECT_EQ(statistics("a")["estimator"]["biased"], true);
-  EXPECT_EQ(statistics("a")["pipeline"]["Correction"], "left out");
+  EXPECT_EQ(statistics("a")["pipeline"]["Corrections"], "0");
   EXPECT_THAT(header("a").at("estimator"), HasSubstr("biased"));
   EXPECT_EQ(header("a").at("estimator.biased"), "1");
   const Outcome unbiased = render("b");
