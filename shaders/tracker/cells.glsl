@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rays from cell to cell of a grid, in lockstep: every lane takes one cell per step, no random numbers, no early death.
-// A cell is left by an integer step along the axis of its nearest far plane, so that a walk can neither stall on a
-// plane nor visit a cell twice; planes are taken from integers, so that nothing adds up. Empty bricks and empty
+// A cell is left by an integer step along the axis of its nearest far plane, so that a walk cannot stall on a
+// plane, and visits a cell again over a length of 0 alone; planes are taken from integers, so that nothing adds up. Empty bricks and empty
 // coarse cells (4^3 bricks) are one step each.
 //
 // The ray's origin should lie near the grid: floats near a far camera are coarser than a cell.

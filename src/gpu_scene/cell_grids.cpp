@@ -43,6 +43,11 @@ std::vector<bool> wantedBricks(const PackedMedia& media, std::size_t index, std:
   return wanted;
 }
 
+double voxelBytes(const PackedMedia& media, const VolumeSet& volumes, std::size_t grid) {
+  const std::vector<bool> wanted = wantedBricks(media, grid, volumes.grids[grid].bricks.size());
+  return double(std::count(wanted.begin(), wanted.end(), true)) * kBlockVoxels * sizeof(float);
+}
+
 } // namespace
 
 CellBlocks makeCellBlocks(const BrickGrid& grid, const std::vector<bool>& wanted) {
@@ -70,11 +75,18 @@ CellBlocks makeCellBlocks(const BrickGrid& grid, const std::vector<bool>& wanted
   return out;
 }
 
+double largestCellArray(const PackedMedia& media, const VolumeSet& volumes) {
+  double largest = 0.0;
+  for (std::size_t g = 0; g < volumes.grids.size(); ++g) {
+    largest = std::max(largest, voxelBytes(media, volumes, g));
+  }
+  return largest;
+}
+
 double plannedCellBytes(const PackedMedia& media, const VolumeSet& volumes) {
   double bytes = 0.0;
   for (std::size_t g = 0; g < volumes.grids.size(); ++g) {
-    const std::vector<bool> wanted = wantedBricks(media, g, volumes.grids[g].bricks.size());
-    bytes += double(std::count(wanted.begin(), wanted.end(), true)) * kBlockVoxels * sizeof(float);
+    bytes += voxelBytes(media, volumes, g);
   }
   for (const PackedMedia::Placement& placement : media.placements) {
     bytes += double(placement.maxima.size() + placement.coarseMaxima.size()) * sizeof(float);

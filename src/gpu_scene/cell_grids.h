@@ -22,6 +22,9 @@ CellBlocks makeCellBlocks(const volume::BrickGrid& grid, const std::vector<bool>
 /// Device bytes that CellGrids will take, from above: constant bricks are counted as if none shared a block.
 double plannedCellBytes(const PackedMedia& media, const VolumeSet& volumes);
 
+/// Of those, the array of one grid's voxels that is the largest.
+double largestCellArray(const PackedMedia& media, const VolumeSet& volumes);
+
 /// The placed grids of a scene for walks from cell to cell: interop::CellGrid i belongs to placement i.
 class CellGrids {
 public:

@@ -175,9 +175,9 @@ PackedLights packLights(const scene::Scene& scene, const Bounds3& bounds, const 
   }
   packer.assignProbabilities();
   // The strongest first: some estimators take those always, and draw one of the others.
-  std::stable_sort(out.points.begin(), out.points.end(), [](const interop::PointLight& a, const interop::PointLight& b) {
-    return a.selectPdf > b.selectPdf;
-  });
+  std::stable_sort(
+      out.points.begin(), out.points.end(),
+      [](const interop::PointLight& a, const interop::PointLight& b) { return a.selectPdf > b.selectPdf; });
   return out;
 }
 

@@ -12,39 +12,51 @@
 namespace tyndall::render {
 namespace {
 
-/// Pieces of a ray that one dispatch can hold on every driver.
-constexpr std::uint32_t kMostPieces = 50000;
+/// 2 GiB: byte offsets that 32 bits hold, and indices that are signed on the device.
+constexpr double kMostArrayBytes = 2147483648.0;
 /// Light caches beyond this share of the memory would rather be coarser.
 constexpr double kCacheShare = 0.5;
 
 /// Why the march does not serve, or empty.
-std::string obstacle(const scene::Scene& scene, const gpu_scene::PackedMedia& media, double cellBytes, double memoryBytes) {
+std::string obstacle(const scene::Scene& scene, const gpu_scene::VolumeSet& volumes,
+                     const gpu_scene::PackedMedia& media, double memoryBytes) {
   const auto distant = std::count_if(scene.lights.begin(), scene.lights.end(), [](const scene::NamedLight& named) {
     return !std::holds_alternative<scene::PointLight>(named.light);
   });
   if (media.placements.size() > interop::kMaxSlots) {
-    return fmt::format("{} grids are placed, it walks at most {} side by side", media.placements.size(), interop::kMaxSlots);
+    return fmt::format("{} grids are placed, it walks at most {} side by side", media.placements.size(),
+                       interop::kMaxSlots);
   }
   if (media.homogeneousCount > interop::kMaxHomogeneous) {
-    return fmt::format("there are {} homogeneous media, it takes at most {}", media.homogeneousCount, interop::kMaxHomogeneous);
+    return fmt::format("there are {} homogeneous media, it takes at most {}", media.homogeneousCount,
+                       interop::kMaxHomogeneous);
   }
   if (distant + 2 > std::ptrdiff_t(interop::kMaxBeams)) {
     return fmt::format("there are {} lights at infinity, it takes at most {}", distant, interop::kMaxBeams - 2);
   }
-  if (mostPieces(media) > kMostPieces) {
+  if (mostPreparation(media) + mostIterations(media, EstimatorOptions{}.corrections) > kMostIterations) {
     return "a ray may cross too many voxels for one dispatch";
   }
+  const double largest = gpu_scene::largestCellArray(media, volumes);
+  if (largest > kMostArrayBytes) {
+    return fmt::format("one grid needs {:.1f} MB as cells, one array holds {:.1f} MB", largest * 1e-6,
+                       kMostArrayBytes * 1e-6);
+  }
+  const double cellBytes = gpu_scene::plannedCellBytes(media, volumes);
   if (cellBytes > memoryBytes) {
-    return fmt::format("its grids need {:.1f} MB of device memory, {:.1f} MB are allowed", cellBytes * 1e-6, memoryBytes * 1e-6);
+    return fmt::format("its grids need {:.1f} MB of device memory, {:.1f} MB are allowed", cellBytes * 1e-6,
+                       memoryBytes * 1e-6);
   }
   return "";
 }
 
 /// The set of sky directions is too coarse for a narrow peak, and nothing else would gain from the march.
 bool trackingIsBetter(const scene::Scene& scene, const gpu_scene::PackedMedia& media) {
-  const bool sky = !scene.lights.empty() && std::none_of(scene.lights.begin(), scene.lights.end(), [](const auto& named) {
-    return std::holds_alternative<scene::PointLight>(named.light) || std::holds_alternative<scene::SunLight>(named.light);
-  });
+  const bool sky =
+      !scene.lights.empty() && std::none_of(scene.lights.begin(), scene.lights.end(), [](const auto& named) {
+        return std::holds_alternative<scene::PointLight>(named.light) ||
+               std::holds_alternative<scene::SunLight>(named.light);
+      });
   return sky && std::any_of(media.media.begin(), media.media.end(),
                             [](const interop::Medium& medium) { return peaked(medium.phase); });
 }
@@ -58,7 +70,7 @@ MethodChoice chooseMethod(const scene::Scene& scene, const gpu_scene::VolumeSet&
   }
   const gpu_scene::PackedMedia media = gpu_scene::packMedia(scene, volumes, sceneBounds(scene, volumes).centre());
   const double cellBytes = gpu_scene::plannedCellBytes(media, volumes);
-  const std::string why = obstacle(scene, media, cellBytes, memoryBytes);
+  const std::string why = obstacle(scene, volumes, media, memoryBytes);
   if (!why.empty() && wanted) {
     fail("--estimator march: {}; use --estimator tracking or auto", why);
   }

@@ -17,7 +17,9 @@ struct MethodChoice {
   std::string reason;      ///< for the user, without a full stop
 };
 
-/// The march wherever it serves; tracking for what it does not: many overlapping grids, memory, very long grids.
+/// The march where it serves; tracking for what it does not (many grids, memory, very long grids), and, unless the
+/// march is asked for, where environments alone light a peaked phase function: there tracking has less variance for its
+/// time.
 /// @param wanted the user's choice. @param memoryBytes for volumes and light caches together.
 /// @throws Error if the march is wanted where it does not serve, with the reason.
 MethodChoice chooseMethod(const scene::Scene& scene, const gpu_scene::VolumeSet& volumes, std::optional<Method> wanted,

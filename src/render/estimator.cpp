@@ -10,6 +10,8 @@ namespace {
 /// A CPU device answers to Ctrl-C between dispatches; a GPU needs this many invocations to be full.
 constexpr std::uint32_t kChunkOnCpu = 16384;
 constexpr std::uint32_t kChunkOnGpu = 262144;
+/// A march counts many cells per pixel: the device's 32-bit counters must hold those of a dispatch.
+constexpr std::uint32_t kMarchChunkOnGpu = 65536;
 
 } // namespace
 
@@ -23,7 +25,8 @@ std::uint32_t chunkFor(const gpu::Device& device, const EstimatorOptions& option
   if (options.chunkPixels > 0) {
     return options.chunkPixels;
   }
-  return device.info().type == "cpu" ? kChunkOnCpu : kChunkOnGpu;
+  const std::uint32_t onGpu = options.method == Method::March ? kMarchChunkOnGpu : kChunkOnGpu;
+  return device.info().type == "cpu" ? kChunkOnCpu : onGpu;
 }
 
 std::unique_ptr<Estimator> makeEstimator(const gpu::Device& device, const gpu_scene::GpuScene& scene,

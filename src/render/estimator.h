@@ -14,7 +14,7 @@ namespace tyndall::render {
 
 /// How the light along a camera ray is computed. Both are unbiased and have the same expectation.
 enum class Method {
-  March,   ///< exact march, light caches, one correction per ray (passes/march)
+  March,   ///< exact march, light caches, a few corrections per ray (passes/march)
   Tracking ///< null-collision tracking (passes/trace)
 };
 const char* methodName(Method method);
@@ -38,10 +38,12 @@ struct EstimatorOptions {
 struct Totals {
   std::uint64_t samples = 0;
   std::uint64_t dispatches = 0;
-  std::uint64_t lookups = 0;          ///< density lookups; march: cells, whose 8 voxels are read together
-  std::uint64_t segments = 0;         ///< tracking: camera, transmittance and shadow segments; march: camera rays and corrections
-  std::uint64_t steps = 0;            ///< march: pieces of camera rays, skipped regions included
-  std::uint64_t resumed = 0;          ///< tracking: invocations that reached the step bound and went on in a next dispatch
+  std::uint64_t lookups =
+      0; ///< density lookups; march: cells, whose 8 voxels are read together, and regions that corrections skip
+  std::uint64_t segments =
+      0;                   ///< tracking: camera, transmittance and shadow segments; march: camera rays and corrections
+  std::uint64_t steps = 0; ///< march: pieces of camera rays, skipped regions included
+  std::uint64_t resumed = 0; ///< tracking: invocations that reached the step bound and went on in a next dispatch
   std::uint64_t nonFinite = 0;
   std::uint64_t negative = 0;         ///< tracking
   std::uint64_t majorantExceeded = 0; ///< tracking

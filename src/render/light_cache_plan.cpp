@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 namespace tyndall::render {
@@ -12,7 +13,8 @@ namespace {
 
 using interop::LightCache;
 
-/// Coarser ones are dropped. In dense media more than this optical depth between nodes makes a cache worse than none.
+/// Memory makes none coarser than this. In dense media more than this optical depth between nodes makes a cache worse
+/// than none; spacings that are asked for, and arrays that would be too long, are let through.
 constexpr double kCoarsestSpacing = 8.0;
 constexpr double kMostDepthPerNode = 3.0;
 /// Optical depth of a voxel above which nodes lie half a voxel apart.
@@ -101,9 +103,14 @@ std::vector<LightCachePlan> planLightCaches(std::span<const LightCacheRequest> r
                                             const gpu_scene::PackedMedia& media, const gpu_scene::VolumeSet& volumes,
                                             double budgetBytes) {
   std::vector<Candidate> candidates;
+  std::map<std::size_t, double> densities; // by grid
   for (std::size_t i = 0; i < requests.size(); ++i) {
     const gpu_scene::PackedMedia::Placement& placement = media.placements.at(requests[i].grid);
-    candidates.push_back(candidateFor(requests[i], placement.header, medianDensity(volumes.grids[placement.grid])));
+    const auto [density, fresh] = densities.try_emplace(placement.grid, 0.0);
+    if (fresh) {
+      density->second = medianDensity(volumes.grids[placement.grid]);
+    }
+    candidates.push_back(candidateFor(requests[i], placement.header, density->second));
     candidates.back().plan.request = i;
   }
   coarsen(candidates, budgetBytes);

@@ -33,11 +33,21 @@ std::uint32_t pointBeams(std::size_t points, std::size_t others) {
   return points <= room ? static_cast<std::uint32_t>(points) : std::min(kStrongestPoints, room - 1);
 }
 
+/// Cells that a straight line can cross, all grids together.
+std::uint32_t cellsAcross(const gpu_scene::PackedMedia& media) {
+  std::uint32_t cells = 0;
+  for (const gpu_scene::PackedMedia::Placement& placement : media.placements) {
+    const glm::ivec3 count = placement.header.brickCount * volume::kBrickEdge;
+    cells += static_cast<std::uint32_t>(count.x + count.y + count.z);
+  }
+  return cells;
+}
+
 /// A cache of one light for each density grid, to be placed in the table of caches.
 void want(const gpu_scene::PackedMedia& media, std::uint32_t group, LightCacheRequest request,
           std::vector<LightCacheRequest>& wanted, std::vector<std::uint32_t>& place) {
   for (const interop::Medium& medium : media.media) {
-    if (medium.densityGrid != interop::kNoGrid) {
+    if (medium.densityGrid != interop::kNoGrid && medium.sigmaT > 0.0f) {
       request.grid = medium.densityGrid;
       request.sigmaT = double(medium.sigmaT);
       wanted.push_back(request);
@@ -56,13 +66,12 @@ void enter(const std::vector<LightCachePlan>& plans, const std::vector<std::uint
 
 } // namespace
 
-std::uint32_t mostPieces(const gpu_scene::PackedMedia& media) {
-  std::uint32_t cells = 0;
-  for (const gpu_scene::PackedMedia::Placement& placement : media.placements) {
-    const glm::ivec3 count = placement.header.brickCount * volume::kBrickEdge;
-    cells += static_cast<std::uint32_t>(count.x + count.y + count.z);
-  }
-  return 2 * cells + kOtherPieces;
+std::uint32_t mostPieces(const gpu_scene::PackedMedia& media) { return 2 * cellsAcross(media) + kOtherPieces; }
+
+std::uint32_t mostPreparation(const gpu_scene::PackedMedia& media) { return 2 * mostPieces(media); }
+
+std::uint32_t mostIterations(const gpu_scene::PackedMedia& media, std::uint32_t corrections) {
+  return mostPieces(media) + corrections * cellsAcross(media);
 }
 
 MarchPlan planMarch(const gpu_scene::GpuScene& scene) {
@@ -78,11 +87,13 @@ MarchPlan planMarch(const gpu_scene::GpuScene& scene) {
   const SkyShares shares = skyShares(scene);
   header.skyLightShare = shares.light;
   header.skyPhaseShare = shares.phase;
-  plan.beams = header.pointBeams + static_cast<std::uint32_t>(distantBeams(distant)) + (points > header.pointBeams ? 1 : 0);
+  plan.beams =
+      header.pointBeams + static_cast<std::uint32_t>(distantBeams(distant)) + (points > header.pointBeams ? 1 : 0);
   plan.groups = header.skyGroup + (plan.sky ? interop::kSkyDirections : 0);
   for (std::uint32_t i = 0; i < distant.size(); ++i) {
     if (!isEnvironment(distant[i])) {
-      want(scene.media(), header.distantGroup + i, {0, 0.0, true, glm::dvec3(distant[i].toLight), 0.0}, plan.wanted, plan.place);
+      want(scene.media(), header.distantGroup + i, {0, 0.0, true, glm::dvec3(distant[i].toLight), 0.0}, plan.wanted,
+           plan.place);
     }
   }
   for (std::uint32_t i = 0; i < header.pointBeams; ++i) {
@@ -91,14 +102,16 @@ MarchPlan planMarch(const gpu_scene::GpuScene& scene) {
   return plan;
 }
 
-MarchScene::MarchScene(const gpu::Device& device, const gpu_scene::GpuScene& scene,
-                       const gpu_scene::VolumeSet& volumes, double cacheBytes)
-    : scene_(scene), volumes_(volumes), plan_(planMarch(scene)), skyBytes_(plan_.sky ? kSkyShare * cacheBytes : 0.0),
+MarchScene::MarchScene(const gpu::Device& device, const gpu_scene::GpuScene& scene, const gpu_scene::VolumeSet& volumes,
+                       double cacheBytes)
+    : scene_(scene), volumes_(volumes), plan_(planMarch(scene)),
+      skyBytes_(plan_.sky ? (plan_.wanted.empty() ? 1.0 : kSkyShare) * cacheBytes : 0.0),
       caches_(device, scene.cells()), skyCaches_(device, scene.cells()), wanted_(plan_.wanted.size()),
       places_(std::size_t(plan_.groups) * scene.media().placements.size(), kNoCache),
       cacheOf_(device, std::max<std::size_t>(places_.size(), 1), gpu::Memory::Device),
       sky_(device, interop::kSkyDirections, gpu::Memory::Device), header_(device, 1, gpu::Memory::Device) {
-  const std::vector<LightCachePlan> plans = planLightCaches(plan_.wanted, scene.media(), volumes, cacheBytes - skyBytes_);
+  const std::vector<LightCachePlan> plans =
+      planLightCaches(plan_.wanted, scene.media(), volumes, cacheBytes - skyBytes_);
   caches_.build(plans);
   enter(plans, plan_.place, places_);
   interop::MarchScene& header = plan_.header;
@@ -128,7 +141,8 @@ void MarchScene::begin(std::uint32_t seed, std::uint32_t batch) {
   std::vector<LightCacheRequest> wanted;
   std::vector<std::uint32_t> place;
   for (std::uint32_t k = 0; k < interop::kSkyDirections; ++k) {
-    want(scene_.media(), plan_.header.skyGroup + k, {0, 0.0, true, glm::dvec3(directions[k]), kSkySpacing}, wanted, place);
+    want(scene_.media(), plan_.header.skyGroup + k, {0, 0.0, true, glm::dvec3(directions[k]), kSkySpacing}, wanted,
+         place);
   }
   const std::vector<LightCachePlan> plans = planLightCaches(wanted, scene_.media(), volumes_, skyBytes_);
   skyCaches_.build(plans);

@@ -25,6 +25,13 @@ MarchPlan planMarch(const gpu_scene::GpuScene& scene);
 /// Bound on the pieces that any ray of the scene can have.
 std::uint32_t mostPieces(const gpu_scene::PackedMedia& media);
 
+/// Loop iterations of an invocation in one dispatch: below what old Mesa cuts (65535), and what a watchdog allows.
+inline constexpr std::uint32_t kMostIterations = 50000;
+/// Bounds on the loop iterations of a pixel's preparation, and of one sample: its pieces and the cells of its
+/// corrections.
+std::uint32_t mostPreparation(const gpu_scene::PackedMedia& media);
+std::uint32_t mostIterations(const gpu_scene::PackedMedia& media, std::uint32_t corrections);
+
 /// What the march needs beside the scene, on the device: grids as cells, light caches. Borrows scene and volumes.
 class MarchScene {
 public:

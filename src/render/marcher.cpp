@@ -9,12 +9,15 @@
 namespace tyndall::render {
 namespace {
 
-/// Loop iterations of an invocation in one dispatch: below what old Mesa cuts (65535), and what a watchdog allows.
-constexpr std::uint32_t kMostIterations = 50000;
+std::uint32_t samplesPerDispatch(const gpu_scene::PackedMedia& media, std::uint32_t corrections) {
+  const std::uint32_t left = kMostIterations - std::min(kMostIterations, mostPreparation(media));
+  return std::clamp(left / mostIterations(media, corrections), 1u, std::uint32_t(film::kBatchSamples));
+}
 
 } // namespace
 
-passes::MarchSpec marchSpecFor(const gpu_scene::GpuScene& scene, const MarchPlan& plan, const EstimatorOptions& options) {
+passes::MarchSpec marchSpecFor(const gpu_scene::GpuScene& scene, const MarchPlan& plan,
+                               const EstimatorOptions& options) {
   const gpu_scene::Features& features = scene.features();
   passes::MarchSpec spec;
   spec.kPhaseMask = features.phaseMask;
@@ -37,11 +40,10 @@ passes::MarchSpec marchSpecFor(const gpu_scene::GpuScene& scene, const MarchPlan
 
 Marcher::Marcher(const gpu::Device& device, const gpu_scene::GpuScene& scene, const gpu_scene::VolumeSet& volumes,
                  const EstimatorOptions& options)
-    : scene_(scene), samplesPerDispatch_(std::clamp(kMostIterations / mostPieces(scene.media()), 1u,
-                                                    std::uint32_t(film::kBatchSamples))),
-      march_(device, scene, volumes, options.cacheBytes), spec_(marchSpecFor(scene, march_.plan(), options)), pass_(device, spec_),
-      pixels_(device, chunkFor(device, options), gpu::Memory::Host), sums_(device, pixels_.size(), gpu::Memory::Host),
-      counters_(device, 1, gpu::Memory::Host) {
+    : scene_(scene), samplesPerDispatch_(samplesPerDispatch(scene.media(), options.corrections)),
+      march_(device, scene, volumes, options.cacheBytes), spec_(marchSpecFor(scene, march_.plan(), options)),
+      pass_(device, spec_), pixels_(device, chunkFor(device, options), gpu::Memory::Host),
+      sums_(device, pixels_.size(), gpu::Memory::Host), counters_(device, 1, gpu::Memory::Host) {
   TYNDALL_CHECK(scene.layout() == gpu_scene::GridLayout::Cells);
 }
 

@@ -8,7 +8,8 @@
 namespace tyndall::render {
 
 /// Specialization of the march pass for a scene: what it does not use has no code.
-passes::MarchSpec marchSpecFor(const gpu_scene::GpuScene& scene, const MarchPlan& plan, const EstimatorOptions& options);
+passes::MarchSpec marchSpecFor(const gpu_scene::GpuScene& scene, const MarchPlan& plan,
+                               const EstimatorOptions& options);
 
 /// Exact march along camera rays with light caches.
 class Marcher final : public Estimator {

@@ -161,7 +161,8 @@ private:
   }
 
   void runPixels(const std::vector<std::uint32_t>& pixels, std::uint32_t batch, SampleRange samples) {
-    for (std::size_t first = 0; first < pixels.size() && report_.stoppedBy.empty(); first += estimator_->chunkPixels()) {
+    for (std::size_t first = 0; first < pixels.size() && report_.stoppedBy.empty();
+         first += estimator_->chunkPixels()) {
       const std::size_t count = std::min<std::size_t>(estimator_->chunkPixels(), pixels.size() - first);
       const std::span<const std::uint32_t> chunk(pixels.data() + first, count);
       const std::span<const interop::PixelSums> sums = estimator_->run(chunk, samples, options_.seed);
@@ -224,8 +225,9 @@ private:
     const Totals& totals = estimator_->totals();
     const std::map<std::string, std::uint64_t> now{
         {"count.nonFinite", totals.nonFinite}, {"count.majorantExceeded", totals.majorantExceeded},
-        {"count.negative", totals.negative},   {"count.cut", totals.cut},   {"count.lookups", totals.lookups},
-        {"count.segments", totals.segments},   {"count.samples", totals.samples}};
+        {"count.negative", totals.negative},   {"count.cut", totals.cut},
+        {"count.lookups", totals.lookups},     {"count.segments", totals.segments},
+        {"count.samples", totals.samples}};
     for (const auto& [key, count] : now) {
       film_.metadata[key] = std::to_string(countsBefore_[key] + count);
     }
@@ -250,8 +252,8 @@ private:
   const scene::Scene& scene_;
   const RenderOptions& options_;
   RenderReport& report_;
-  Clock::time_point start_ = Clock::now() - std::chrono::duration_cast<Clock::duration>(
-                                                std::chrono::duration<double>(options_.secondsBefore));
+  Clock::time_point start_ =
+      Clock::now() - std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options_.secondsBefore));
   Estimator* estimator_;
   std::string device_;
   Film film_;

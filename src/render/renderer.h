@@ -3,8 +3,8 @@
 
 #include "film/film.h"
 #include "gpu_scene/gpu_scene.h"
-#include "render/schedule.h"
 #include "render/estimator.h"
+#include "render/schedule.h"
 #include "scene/scene.h"
 
 #include <atomic>
@@ -29,8 +29,8 @@ struct RenderOptions {
   film::Window crop; ///< empty: the whole image
   StopRule stop;
   std::uint32_t seed = 0;
-  EstimatorOptions estimator; ///< of the one that renderFilm makes; not read where one is handed over
-  double secondsBefore = 0.0; ///< spent on making the estimator that is handed over; counts as rendering
+  EstimatorOptions estimator;       ///< of the one that renderFilm makes; not read where one is handed over
+  double secondsBefore = 0.0;       ///< spent on making the estimator that is handed over; counts as rendering
   std::filesystem::path checkpoint; ///< empty: none are written; the last one when interrupted or resuming
   double checkpointSeconds = 20.0;
   bool resume = false;   ///< go on from `checkpoint` if it is there

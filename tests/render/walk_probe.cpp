@@ -48,7 +48,8 @@ WalkProbe::WalkProbe(const TestScene& test, const render::EstimatorOptions& opti
 WalkReport WalkProbe::run(const std::vector<ProbeSegment>& segments, const WalkCountsWanted& wanted) const {
   std::vector<interop::WalkRay> rays;
   for (const ProbeSegment& segment : segments) {
-    rays.push_back({glm::vec3(segment.origin - scene_->centre()), glm::vec3(segment.direction), static_cast<float>(segment.tMax)});
+    rays.push_back(
+        {glm::vec3(segment.origin - scene_->centre()), glm::vec3(segment.direction), static_cast<float>(segment.tMax)});
   }
   const auto input = ProbeRunner::upload(rays);
   const std::size_t invocations = segments.size() * wanted.invocationsPerRay;
@@ -69,7 +70,8 @@ WalkReport WalkProbe::run(const std::vector<ProbeSegment>& segments, const WalkC
   kernel_->run(inputs, static_cast<std::uint32_t>(invocations));
   WalkReport report;
   for (std::size_t i = 0; i < segments.size(); ++i) {
-    report.segments.push_back(summed(results.mapped().subspan(i * wanted.invocationsPerRay, wanted.invocationsPerRay), wanted.walks));
+    report.segments.push_back(
+        summed(results.mapped().subspan(i * wanted.invocationsPerRay, wanted.invocationsPerRay), wanted.walks));
   }
   for (const interop::WalkResult& result : results.mapped()) {
     report.lookups += result.lookups;

@@ -14,7 +14,7 @@ namespace tyndall::test {
 /// A segment in the scene's own world space.
 struct ProbeSegment {
   glm::dvec3 origin{0.0};
-  glm::dvec3 direction{0.0, 0.0, 1.0};  ///< unit
+  glm::dvec3 direction{0.0, 0.0, 1.0}; ///< unit
   double tMax = 1e30;
 };
 
@@ -28,18 +28,18 @@ struct SegmentEstimate {
 
 struct WalkReport {
   std::vector<SegmentEstimate> segments;
-  std::vector<float> distances;   ///< one per walk and < 0 without a collision, if asked for
+  std::vector<float> distances; ///< one per walk and < 0 without a collision, if asked for
   double lookups = 0.0;
   double exceeded = 0.0;
 };
 
 struct WalkCountsWanted {
   std::uint32_t invocationsPerRay = 16;
-  std::uint32_t walks = 64;       ///< per invocation
-  std::uint32_t mode = 1;         ///< 0 collide, 1 transmit: kWalk* of tracker/walk.glsl
+  std::uint32_t walks = 64; ///< per invocation
+  std::uint32_t mode = 1;   ///< 0 collide, 1 transmit: kWalk* of tracker/walk.glsl
   std::uint32_t seed = 1;
   bool distances = false;
-  float firstXi = 1.0f;           ///< < 1: condition on a first draw below it; segments must enter the first grid
+  float firstXi = 1.0f; ///< < 1: condition on a first draw below it; segments must enter the first grid
 };
 
 /// Walks segments through a scene's grid media with the shipped tracker.

@@ -23,6 +23,13 @@ LightCache beamCaches[kBeamArray * kSlotArray]; // [beam * kSlots + slot], where
 bool beamCached[kBeamArray * kSlotArray];
 uint beamCount;
 
+void clearBeams() {
+  [[unroll]] for (uint b = 0u; b < kBeams; ++b) {
+    beams[b] = Beam(false, vec3(0.0), vec3(0.0), kNoCache);
+  }
+  beamCount = 0u;
+}
+
 void addBeam(Beam beam) {
   [[unroll]] for (uint b = 0u; b < kBeams; ++b) {
     if (b == beamCount) {
@@ -49,8 +56,8 @@ void addDistantBeams(ScenePtr scene, MarchScenePtr march, vec3 d, Sobol sobol, i
     addBeam(beam);
   }
   if (kSky && sky) {
-    const SkySample sky = skySample(scene, march, d, sobol, rng);
-    addBeam(Beam(false, sky.direction, sky.strength, march.at[0].skyGroup + sky.index));
+    const SkySample drawn = skySample(scene, march, d, sobol, rng);
+    addBeam(Beam(false, drawn.direction, drawn.strength, march.at[0].skyGroup + drawn.index));
   }
 }
 
@@ -81,7 +88,7 @@ void addPointBeams(ScenePtr scene, MarchScenePtr march, vec3 origin, vec3 direct
   }
 }
 
-bool isSky(MarchScenePtr march, Beam beam) { return kSky && beam.group >= march.at[0].skyGroup; }
+bool isSky(uint skyGroup, Beam beam) { return kSky && beam.group != kNoCache && beam.group >= skyGroup; }
 
 void loadCaches(MarchScenePtr march) {
   [[unroll]] for (uint b = 0u; b < kBeams; ++b) {
@@ -91,7 +98,7 @@ void loadCaches(MarchScenePtr march) {
       beamCached[i] = index != kNoCache;
       if (beamCached[i]) {
         LightCachePtr caches = march.at[0].caches;
-        if (isSky(march, beams[b])) {
+        if (isSky(march.at[0].skyGroup, beams[b])) {
           caches = march.at[0].skyCaches;
         }
         beamCaches[i] = caches.at[index];
@@ -102,10 +109,7 @@ void loadCaches(MarchScenePtr march) {
 
 // `stretch` is where the ray may meet media.
 void makeBeams(ScenePtr scene, MarchScenePtr march, vec3 origin, vec3 direction, vec2 stretch, Sobol sobol, inout Rng rng) {
-  [[unroll]] for (uint b = 0u; b < kBeams; ++b) {
-    beams[b] = Beam(false, vec3(0.0), vec3(0.0), kNoCache);
-  }
-  beamCount = 0u;
+  clearBeams();
   if (kDistantLights) {
     addDistantBeams(scene, march, direction, sobol, rng);
   }

@@ -27,7 +27,7 @@
   SPEC(bool, kOrthographic,     9, false)                                                     \
   SPEC(bool, kBackground,      10, true)        /* a distant light is visible */              \
   SPEC(bool, kAovs,            11, false)       /* depth and albedo */                        \
-  SPEC(uint, kCorrections,     12, 2u)          /* per ray; 0: the preview, biased */         \
+  SPEC(uint, kCorrections,     12, 4u)          /* per ray; 0: the preview, biased */         \
   SPEC(bool, kCount,           13, true)        /* cells and corrections are counted */       \
   SPEC(uint, kPlantedBug,      14, 0u)          /* tests: kBug* of interop/planted_bugs.h */
 // clang-format on
@@ -38,7 +38,7 @@ GPU_BEGIN
 struct MarchCounters {
   uint nonFinite;   // samples dropped because they were not finite
   uint cut;         // rays that reached maxSteps: must stay 0
-  uint cells;       // cells whose voxels were read, camera rays and corrections together
+  uint cells;       // of camera rays: cells whose voxels were read; of corrections: skipped regions as well
   uint steps;       // of camera rays: cells, skipped regions, pieces of homogeneous media
   uint corrections; // exact walks to a light
 };

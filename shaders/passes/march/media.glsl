@@ -8,6 +8,12 @@
 #include "medium/shape.glsl"
 #include "phase/phase.glsl"
 
+// Dimensions of a sample's Sobol point.
+const uint kDimPixel = 0u;  // and 1
+const uint kDimOffset = 2u;
+const uint kDimDisc = 5u;   // and 6
+const uint kDimSky = 9u;
+
 const uint kMedia = kHomogeneousMedia + kGridMedia;
 const uint kSlotArray = kSlots > 0u ? kSlots : 1u;
 const uint kMediaArray = kMedia > 0u ? kMedia : 1u;

@@ -15,6 +15,7 @@ const float kHomogeneousPieceDepth = 0.5;
 const float kPieceAngle = 0.1;
 // Largest length of such a piece where grids cast shadows: a share of the scene's radius, or of the distance to it.
 const float kPieceLength = 0.125;
+
 struct Piece {
   float t0;
   float t1;
@@ -107,7 +108,7 @@ Piece nextPiece(vec4 extent, float t) {
   Piece piece = Piece(t, kInfiniteDistance, false, false);
   [[unroll]] for (uint s = 0u; s < kSlots; ++s) {
     if (slotActive(s, t)) {
-        slotLooks[s] = cellLook(slotWalks[s], slotGrids[s]);
+      slotLooks[s] = cellLook(slotWalks[s], slotGrids[s]);
       slotLooks[s].tExit = max(slotLooks[s].tExit, t);
       piece.t1 = min(piece.t1, slotLooks[s].tExit);
       piece.grids = piece.grids || slotLooks[s].block != kEmptyBrick;
@@ -138,7 +139,7 @@ Piece nextPiece(vec4 extent, float t) {
 void leavePiece(Piece piece) {
   [[unroll]] for (uint s = 0u; s < kSlots; ++s) {
     if (slotActive(s, piece.t0) && slotLooks[s].tExit <= piece.t1) {
-        slotInside[s] = cellStep(slotWalks[s], slotGrids[s], slotLooks[s]);
+      slotInside[s] = cellStep(slotWalks[s], slotGrids[s], slotLooks[s]);
     }
   }
 }
@@ -149,7 +150,7 @@ vec4 pieceExtinction(Piece piece, inout uint cells) {
   [[unroll]] for (uint s = 0u; s < kSlots; ++s) {
     slotCubics[s] = vec4(0.0);
     if (slotFilled(s, piece)) {
-        slotCubics[s] = cellCubic(slotWalks[s], slotGrids[s], slotLooks[s].block, piece.t0, piece.t1);
+      slotCubics[s] = cellCubic(slotWalks[s], slotGrids[s], slotLooks[s].block, piece.t0, piece.t1);
       ++cells;
     }
   }

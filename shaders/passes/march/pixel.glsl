@@ -60,7 +60,7 @@ void beginPixel(ScenePtr scene, MarchScenePtr march, vec3 origin, vec3 direction
     skyWeights[k] = kSlots > 0u ? kLeastVisible : 1.0;
   }
   if (kSlots > 0u) {
-    beamCount = 0u;
+    clearBeams(); // pieces are cut by point lights: of this walk there are none
     const vec4 extent = vec4(march.at[0].centre, march.at[0].radius);
     const uint maxSteps = march.at[0].maxSteps;
     const float opacity = opacityPlaces(origin, direction, 1.0, 1.0, extent, maxSteps).z;

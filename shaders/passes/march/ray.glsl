@@ -31,7 +31,7 @@ struct MarchResult {
   bool cut;
 };
 
-// The position that the correction is taken at.
+// A position that a correction is taken at.
 struct Kept {
   float weight;
   float t;
@@ -130,7 +130,7 @@ void takeBeam(uint skyGroup, Piece piece, vec4 extinction, float share, float u,
   const float cached = exp(-cachedDepth(b, t, toLight, distance));
   result.scattered += contribution * cached;
   if (kCorrections > 0u) {
-    const bool sky = kSky && beam.group >= skyGroup;
+    const bool sky = isSky(skyGroup, beam);
     const float weight = max(contribution.x, max(contribution.y, contribution.z)) * (cached + (sky ? kKeepFloorSky : kKeepFloor));
     weightSum += weight;
     [[unroll]] for (uint k = 0u; k < kCorrections; ++k) {
@@ -264,7 +264,9 @@ MarchResult marchRay(ScenePtr scene, MarchScenePtr march, vec3 origin, vec3 dire
         chosen = kept[j];
       }
     }
-    correct(chosen, result);
+    if (chosen.weight > 0.0) { // denormal weights may keep nothing
+      correct(chosen, result);
+    }
   }
   return result;
 }

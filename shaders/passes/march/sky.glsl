@@ -14,12 +14,6 @@
 #include "light/lights.glsl"
 #include "passes/march/media.glsl"
 
-// Dimensions of a sample's Sobol point.
-const uint kDimPixel = 0u;  // and 1
-const uint kDimOffset = 2u;
-const uint kDimDisc = 5u;   // and 6
-const uint kDimSky = 9u;
-
 // Of the pixel that is being rendered: what each direction of the set is expected to give, and the sum.
 float skyWeights[kSkyDirections];
 float skyTotal;
