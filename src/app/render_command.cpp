@@ -170,12 +170,12 @@ private:
   void tellAboutEstimator(const Prepared& prepared) const {
     say()(fmt::format("estimator: {} ({})", render::methodName(prepared.choice.method), prepared.choice.reason));
     if (request_.preview) {
-      say()("preview: BIASED, light caches are taken for true; lights without one cast no shadows through grids");
+      say()("preview: BIASED, light caches are taken for true");
     }
     const render::CacheReport caches = prepared.estimator->caches();
     if (caches.count + caches.dropped > 0) {
-      say()(fmt::format("light caches: {} of {}, {}, built in {:.2f} s", caches.count, caches.count + caches.dropped,
-                        inBytes(caches.bytes), caches.seconds));
+      say()(fmt::format("light caches of suns and lamps: {} of {}, {}, built in {:.2f} s", caches.count,
+                        caches.count + caches.dropped, inBytes(caches.bytes), caches.seconds));
     }
     if (caches.dropped > 0) {
       say()(fmt::format("{} light caches do not fit into the device memory allowed: {} (--memory allows more)",

@@ -108,7 +108,9 @@ void sayWhatCameOut(const PictureContext& context, const RenderRecord& record, c
   context.say(fmt::format("{} samples per pixel in {} (stopped by {}), {}, {} of "
                           "the PNG's pixels clipped",
                           samplesPerPixel(film), formatDuration(report.seconds), report.stoppedBy,
-                          errorInWords(record.error), percent(record.png.clippedShare)));
+                          context.request.preview ? errorInWords(record.error) + " and a bias that it does not know"
+                                                  : errorInWords(record.error),
+                          percent(record.png.clippedShare)));
   if (report.totals.negative > 0) {
     context.say(fmt::format("{} samples were negative, which this estimator may produce", report.totals.negative));
   }
@@ -123,7 +125,7 @@ int judge(const PictureContext& context, const RenderRecord& record, const film:
   const std::uint64_t majorantExceeded = film::countOf(film.metadata, "majorantExceeded");
   const std::uint64_t cut = film::countOf(film.metadata, "cut");
   if (context.request.preview) {
-    spdlog::warn("{}: is BIASED (--preview): its error estimate does not know by how much; render without --preview "
+    spdlog::warn("{} is BIASED (--preview): its error estimate does not know by how much; render without --preview "
                  "for the picture that counts",
                  files.exr.string());
   }

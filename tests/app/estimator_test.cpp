@@ -62,7 +62,7 @@ TEST_F(Estimators, TheChoiceAndItsReasonAreSaid) {
   const Outcome chosen = render("a");
   ASSERT_EQ(chosen.exitCode, 0) << chosen.errors;
   EXPECT_THAT(chosen.output, HasSubstr("estimator: march ("));
-  EXPECT_THAT(chosen.output, HasSubstr("light caches: 1 of 1, "));
+  EXPECT_THAT(chosen.output, HasSubstr("light caches of suns and lamps: 1 of 1, "));
   EXPECT_EQ(statistics("a")["estimator"]["name"], "march");
   EXPECT_EQ(statistics("a")["estimator"]["biased"], false);
   EXPECT_EQ(statistics("a")["light_caches"]["count"], 1);
@@ -101,7 +101,7 @@ TEST_F(Estimators, APreviewSaysEverywhereThatItIsBiased) {
   const Outcome outcome = render("a", "--preview");
   ASSERT_EQ(outcome.exitCode, 0) << outcome.errors;
   EXPECT_THAT(outcome.output, HasSubstr("BIASED"));
-  EXPECT_THAT(outcome.errors, HasSubstr("a.exr: is BIASED (--preview)"));
+  EXPECT_THAT(outcome.errors, HasSubstr("a.exr is BIASED (--preview)"));
   EXPECT_THAT(render("a", "--preview --quiet").errors, HasSubstr("BIASED"));
   EXPECT_EQ(statistics("a")["estimator"]["biased"], true);
   EXPECT_EQ(statistics("a")["pipeline"]["Corrections"], "0");
@@ -180,7 +180,7 @@ TEST_F(Estimators, LittleMemoryCoarsensThenDropsCachesThenTracks) {
 
   const Outcome dropped = render("c", "--estimator march" + memory(ownMarch + cells + 100));
   ASSERT_EQ(dropped.exitCode, 0) << dropped.errors;
-  EXPECT_THAT(dropped.output, HasSubstr("light caches: 0 of 1"));
+  EXPECT_THAT(dropped.output, HasSubstr("light caches of suns and lamps: 0 of 1"));
   EXPECT_THAT(dropped.output, HasSubstr("1 light caches do not fit"));
 
   const Outcome tracked = render("d", memory(ownTracking + cells - 100));
