@@ -6,7 +6,7 @@
 
 #include "interop/march.h"
 #include "medium/shape.glsl"
-#include "phase/phase.glsl"
+#include "phase/planted.glsl"
 
 // Dimensions of a sample's Sobol point.
 const uint kDimPixel = 0u;  // and 1
@@ -34,11 +34,6 @@ void loadScene(ScenePtr scene, MarchScenePtr march) {
 uint slotOf(uint grid) { return kSlots == 1u ? 0u : grid; }
 
 bool hasDensity(uint m) { return kSlots > 0u && m >= kHomogeneousMedia && media[m].densityGrid != kNoGrid; }
-
-float evalPhase(Phase phase, vec3 dIn, vec3 dOut) {
-  const float value = phaseEval(phase, kPlantedBug == kBugPhaseSign ? -dIn : dIn, dOut);
-  return kPlantedBug == kBugNoInverse4Pi ? value * kFourPi : value;
-}
 
 // Transmittance of the homogeneous media between a point and a light, in closed form.
 float homogeneousTransmittance(vec3 origin, vec3 direction, float tMax) {

@@ -13,7 +13,7 @@
 #include "core/equiangular.glsl"
 #include "light/lights.glsl"
 #include "medium/emission.glsl"
-#include "phase/phase.glsl"
+#include "phase/planted.glsl"
 #include "tracker/walk.glsl"
 
 const uint kStageSample = 0u;    // begin a sample
@@ -36,11 +36,6 @@ void walkSegment(inout TraceState path, ScenePtr scene, vec3 origin, vec3 direct
 
 float homogeneousTransmittance(ScenePtr scene, vec3 origin, vec3 direction, float tMax) {
   return kHomogeneous ? exp(-homogeneousDepth(scene, origin, direction, tMax)) : 1.0;
-}
-
-float evalPhase(Phase phase, vec3 dIn, vec3 dOut) {
-  const float value = phaseEval(phase, kPlantedBug == kBugPhaseSign ? -dIn : dIn, dOut);
-  return kPlantedBug == kBugNoInverse4Pi ? value * kFourPi : value;
 }
 
 void stageSample(inout TraceState path, ScenePtr scene, uvec2 pixel, uint seed, uint sampleIndex, inout Rng rng) {
