@@ -7,6 +7,7 @@ readonly run_packages=(
   g++ cmake ninja-build glslang-tools spirv-tools
   libvulkan-dev libvulkan1 mesa-vulkan-drivers
   libopenvdb-dev libboost-dev libopenexr-dev libtbb-dev libpng-dev libglm-dev
+  libtinygltf-dev libtinyobjloader-dev libstb-dev
   nlohmann-json3-dev libcli11-dev libspdlog-dev libfmt-dev
 )
 readonly test_packages=(vulkan-validationlayers libgtest-dev libgmock-dev openexr)

@@ -24,4 +24,9 @@ vec2 uniformDiscSample(vec2 xi) { return sqrt(xi.x) * cosSinTurns(xi.y); }
 /// Per unit area.
 float uniformDiscPdf() { return kInvPi; }
 
+/// Directions on the side of +z with density proportional to their cosine.
+vec3 cosineHemisphereSample(vec2 xi) { return vec3(uniformDiscSample(xi), sqrt(1.0 - xi.x)); }
+/// [1/sr] for cosine = z >= 0.
+float cosineHemispherePdf(float cosine) { return cosine * kInvPi; }
+
 #endif

@@ -36,6 +36,7 @@ struct Grid {
   GPU_PTR(Brick) bricks;     // x fastest
   GPU_PTR(float) maxima;     // per brick: >= every value reconstructed inside it
   GPU_PTR(float) coarseMaxima;
+  GPU_PTR(float) cumulative; // emission grids as lights: sums over bricks of maximum * volume inside the bounds, or 0
 };
 GPU_BUFFER(Grid)
 

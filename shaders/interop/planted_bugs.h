@@ -17,6 +17,12 @@ GPU_CONST uint kBugOneTapBlackbody = 7; // Planck of a stochastic lookup
 GPU_CONST uint kBugJacobian = 8;        // point light without 1 / r^2
 GPU_CONST uint kBugNoCorrection = 9;    // the light cache taken for the truth
 GPU_CONST uint kBugOtherCache = 10;     // the correction subtracts another cache value than the march added
+GPU_CONST uint kBugExclusiveEdges = 20; // a ray through a triangle's edge misses it
+GPU_CONST uint kBugVolumePdf = 30;      // an emissive medium's density of directions without t^2
+GPU_CONST uint kBugHeroWeight = 31;     // balance heuristic over heroes for each flight on its own
+GPU_CONST uint kBugRoulette = 32;       // survivors of roulette without their weight
+GPU_CONST uint kBugNoPriority = 33;     // refracting boundaries inside objects of higher priority bend light
+GPU_CONST uint kBugLineRestart = 34;    // a null boundary starts a new line
 
 GPU_END
 #endif

@@ -3,15 +3,18 @@
 #ifndef TYNDALL_INTEROP_SCENE_H
 #define TYNDALL_INTEROP_SCENE_H
 
+#include "interop/emitters.h"
 #include "interop/environment.h"
 #include "interop/grid.h"
 #include "interop/phase.h"
+#include "interop/surfaces.h"
 
 GPU_BEGIN
 
 GPU_CONST uint kShapeUnbounded = 0;
 GPU_CONST uint kShapeBox = 1;
 GPU_CONST uint kShapeSphere = 2;
+GPU_CONST uint kShapeInterior = 3;  // inside the objects of Medium::interiors
 
 GPU_CONST uint kEmissionNone = 0;
 GPU_CONST uint kEmissionLinear = 1;    // j = emission * value
@@ -22,8 +25,10 @@ struct Medium {
   Phase phase;
   vec3 albedo;           // sigma_s / sigma_t, [0, 1]
   float sigmaT;          // homogeneous: extinction [1/unit]; grid: extinction per unit of density
+  vec3 colour;           // the extinction's factor per channel, [0, 1], the largest 1
   mat4x3 mediumFromWorld; // homogeneous: affine
   uint shape;            // kShape*
+  uint interiors;        // bits of the interiors that it fills (kShapeInterior)
   vec3 shapeMin;         // box: corner; sphere: centre
   vec3 shapeMax;         // box: corner; sphere: x = radius
   vec3 emission;         // [W/(m3 sr)] per unit of value, or multiplier of the blackbody's RGB
@@ -33,8 +38,19 @@ struct Medium {
   float temperatureOffset;
   uint densityGrid;      // index into Scene::grids (grid media)
   uint emissionGrid;     // index into Scene::grids
+  uint emitter;          // pass `path`: index among the emitters, or kNoEmitter: found by directions alone
+  float emissionMeasure; // integral over the medium of the density that emission points are chosen by
 };
 GPU_BUFFER(Medium)
+
+// A box around grid media, depth first: where a ray misses it, the walk goes on at `skip`.
+struct MediumNode {
+  vec3 boundsMin;        // centred world space
+  uint skip;             // the node after all of those below this one
+  vec3 boundsMax;
+  uint medium;           // leaf: index into Scene::media; inner: kNoMedium
+};
+GPU_BUFFER(MediumNode)
 
 // Lights with a position.
 struct PointLight {
@@ -69,6 +85,10 @@ struct Camera {
   vec3 corner;           // direction of corner x = y = 0 (perspective); view direction (orthographic)
   vec3 rasterX;
   vec3 rasterY;
+  vec3 lensX;            // half-axes of the lens [scene units]; 0 0 0: a pinhole
+  vec3 lensY;
+  float focusDistance;   // from the lens to the plane in focus, along the view direction
+  uint interiors;        // that the camera stands in
 };
 
 struct Scene {
@@ -80,12 +100,19 @@ struct Scene {
   uint pointCount;
   uint distantCount;
   float pointShare;      // probability that light selection takes a point light
+  uint maxEvents;        // scattering events of a path at most
+  uint mediumNodeCount;
+  uint reserved;         // pointers lie at multiples of 8
+  float emitterShare;    // pass `path`: probability that light selection takes an emitter
   GPU_PTR(Medium) media;
   GPU_PTR(Grid) grids;
   GPU_PTR(uint) emissive; // indices of media with grid emission
   GPU_PTR(PointLight) points;
   GPU_PTR(DistantLight) distant;
   GPU_PTR(vec3) blackbody; // table of light/blackbody.glsl
+  GPU_PTR(MediumNode) mediumNodes; // of the grid media, where there are many
+  GPU_PTR(Surfaces) surfaces;
+  GPU_PTR(Emitters) emitters;
 };
 GPU_BUFFER(Scene)
 

@@ -7,7 +7,11 @@
 //                 Otherwise delta tracking: the nearest real collision over all media (they may overlap: the
 //                 nearest of independent Poisson processes is a collision of their sum).
 //   kWalkTransmit ratio tracking: the product of 1 - sigma_t / majorant over all media [Novak14, section 3].
-//   kWalkEmit     no collisions: a point on the segment, chosen in proportion to the emission grid's cell maxima.
+//   kWalkEmit     no collisions: a point of Walk::collect, chosen in proportion to the emission grid's cell maxima.
+//
+// The includer declares two specialization constants. kMediumTree: there are many grid media, a tree of their boxes says
+// which ones the segment may meet. kChromatic: where extinction differs by channel, one channel, the hero, decides what
+// collides; Walk::ratio says how much more or less likely it is by the others' extinction (docs/theory.md, (23)).
 #ifndef TYNDALL_TRACKER_WALK_GLSL
 #define TYNDALL_TRACKER_WALK_GLSL
 
@@ -34,6 +38,7 @@ Walk walkBegin(vec3 origin, vec3 direction, float tMax, uint mode, uint firstMed
   walk.tMax = tMax;
   walk.mode = mode;
   walk.medium = firstMedium;
+  walk.node = 0u;
   walk.entered = 0u;
   walk.brick = ivec3(0);
   walk.t = 0.0;
@@ -45,6 +50,10 @@ Walk walkBegin(vec3 origin, vec3 direction, float tMax, uint mode, uint firstMed
   walk.weightSum = 0.0;
   walk.tHit = -1.0;
   walk.hitMedium = firstMedium;
+  walk.hero = 0u;
+  walk.ratio = vec3(1.0);
+  walk.collect = vec2(0.0, tMax);
+  walk.measure = 0.0;
   return walk;
 }
 
@@ -97,9 +106,14 @@ void skipCoarse(inout Walk walk, Grid grid, ivec3 coarse) {
   walk.brick = mix(inside, leaving, notEqual(step, ivec3(0)));
 }
 
+// A component that is known by number alone.
+float heroOf(vec3 colour, uint hero) { return hero == 0u ? colour.x : hero == 1u ? colour.y : colour.z; }
+
 // One tentative collision in the current brick, at optical depth tau past its entry. Returns true if the walk through
 // this medium ends here.
-bool walkCollide(inout Walk walk, Grid grid, float sigmaScale, float majorant, inout Rng rng, inout WalkCounts counts) {
+// `colour`: factors of the extinction per channel.
+bool walkCollide(inout Walk walk, Grid grid, float sigmaScale, vec3 colour, float majorant, inout Rng rng,
+                 inout WalkCounts counts) {
   const float t = walk.t + walk.tau / majorant;
   vec3 point = walk.voxelOrigin + t * walk.voxelDirection;
   if (kPlantedBug == kBugHalfVoxel) {
@@ -114,7 +128,11 @@ bool walkCollide(inout Walk walk, Grid grid, float sigmaScale, float majorant, i
   if (walk.mode == kWalkCollide) {
     const float xi = rngFloat(rng);
     if (!kWeighted) {
-      if (xi < share) {
+      const float heroShare = kChromatic ? share * heroOf(colour, walk.hero) : share;
+      if (kChromatic) {
+        walk.ratio *= xi < heroShare ? colour * (share / heroShare) : max(1.0 - colour * share, 0.0) / (1.0 - heroShare);
+      }
+      if (xi < heroShare) {
         walk.tHit = t;
         walk.hitMedium = walk.medium;
         walk.tMax = t;
@@ -129,21 +147,34 @@ bool walkCollide(inout Walk walk, Grid grid, float sigmaScale, float majorant, i
       walk.hitMedium = walk.medium;
     }
   }
-  walk.transmittance *= max(1.0 - share, 0.0);
+  if (kChromatic) {
+    if (walk.mode == kWalkTransmit) {
+      walk.ratio *= max(1.0 - colour * share, 0.0);
+      walk.transmittance = max(walk.ratio.x, max(walk.ratio.y, walk.ratio.z));
+    }
+  } else {
+    walk.transmittance *= max(1.0 - share, 0.0);
+  }
   if (walk.transmittance < kRouletteTransmittance) {
     const bool survives = rngFloat(rng) * kRouletteTransmittance < walk.transmittance;
-    walk.transmittance = survives ? kRouletteTransmittance : 0.0;
+    const float kept = survives ? kRouletteTransmittance : 0.0;
+    walk.ratio *= survives ? kept / walk.transmittance : 0.0;
+    walk.transmittance = kept;
   }
   return walk.transmittance == 0.0;
 }
 
-// Keeps one point of the segment with density `maximum` / weightSum.
+// Keeps one point of Walk::collect with density `maximum` / weightSum, and measures the whole line.
 void walkEmit(inout Walk walk, float maximum, float tExit, inout Rng rng) {
-  const float length = max(tExit - walk.t, 0.0);
+  const float end = max(tExit, walk.t);
+  const float squares = (walk.t * walk.t + walk.t * end + end * end) * (1.0 / 3.0);
+  walk.measure += maximum * (end - walk.t) * (kPlantedBug == kBugVolumePdf ? 1.0 : squares);
+  const float first = max(walk.t, walk.collect.x);
+  const float length = max(min(end, walk.collect.y) - first, 0.0);
   const float weight = maximum * length;
   walk.weightSum += weight;
   if (rngFloat(rng) * walk.weightSum < weight) {
-    walk.tHit = walk.t + rngFloat(rng) * length;
+    walk.tHit = first + rngFloat(rng) * length;
     walk.hitMedium = walk.medium;
     walk.tau = maximum; // kept for the weight: this mode draws no optical depth
   }
@@ -156,7 +187,7 @@ void walkLeave(inout Walk walk) {
 }
 
 // One cell, one tentative collision or one step over an empty coarse cell.
-void walkStep(inout Walk walk, Grid grid, float sigmaScale, inout Rng rng, inout WalkCounts counts) {
+void walkStep(inout Walk walk, Grid grid, float sigmaScale, vec3 colour, inout Rng rng, inout WalkCounts counts) {
   const bool emit = kGridEmission && walk.mode == kWalkEmit;
   const float maximum = grid.maxima.at[brickIndex(grid, walk.brick)];
   const vec3 exits = cellExits(walk, walk.brick, kBrickEdge);
@@ -168,7 +199,7 @@ void walkStep(inout Walk walk, Grid grid, float sigmaScale, inout Rng rng, inout
     if (emit) {
       walkEmit(walk, maximum, tExit, rng);
     } else if (walk.tau < cellDepth) {
-      if (walkCollide(walk, grid, sigmaScale, majorant, rng, counts)) {
+      if (walkCollide(walk, grid, sigmaScale, colour, majorant, rng, counts)) {
         walkLeave(walk);
       }
       return;
@@ -193,33 +224,69 @@ void walkStep(inout Walk walk, Grid grid, float sigmaScale, inout Rng rng, inout
 }
 
 // Walks the current medium's grid until it is left or the steps are used up.
-void walkMedium(inout Walk walk, Grid grid, float sigmaScale, inout Rng rng, inout WalkCounts counts) {
+void walkMedium(inout Walk walk, Grid grid, float sigmaScale, vec3 colour, inout Rng rng, inout WalkCounts counts) {
   if (walk.entered == 0u && !walkEnter(walk, grid, rng)) {
     walkLeave(walk);
     return;
   }
   [[dont_unroll]] while (walk.entered != 0u && counts.stepsLeft > 0u) {
     --counts.stepsLeft;
-    walkStep(walk, grid, sigmaScale, rng, counts);
+    walkStep(walk, grid, sigmaScale, colour, rng, counts);
   }
+}
+
+// Walks the medium at hand, or a part of it.
+void walkHere(inout Walk walk, ScenePtr scene, inout Rng rng, inout WalkCounts counts) {
+  const uint gridIndex = walk.mode == kWalkEmit ? scene.at[0].media.at[walk.medium].emissionGrid
+                                                : scene.at[0].media.at[walk.medium].densityGrid;
+  if (gridIndex == kNoGrid) {
+    walkLeave(walk);
+    return;
+  }
+  Grid grid = scene.at[0].grids.at[gridIndex];
+  const vec3 colour = kChromatic ? scene.at[0].media.at[walk.medium].colour : vec3(1.0);
+  walkMedium(walk, grid, scene.at[0].media.at[walk.medium].sigmaT, colour, rng, counts);
+}
+
+// Finds the next medium whose box the segment meets; false: there is none.
+bool walkFindMedium(inout Walk walk, ScenePtr scene, inout WalkCounts counts) {
+  MediumNodePtr nodes = scene.at[0].mediumNodes;
+  const uint count = scene.at[0].mediumNodeCount;
+  [[dont_unroll]] while (walk.node < count && counts.stepsLeft > 0u) {
+    --counts.stepsLeft;
+    const vec2 interval = boxInterval(walk.origin, walk.direction, nodes.at[walk.node].boundsMin,
+                                      nodes.at[walk.node].boundsMax, walk.tMax);
+    const uint medium = nodes.at[walk.node].medium;
+    const bool met = interval.x <= interval.y;
+    walk.node = met ? walk.node + 1u : nodes.at[walk.node].skip;
+    if (met && medium != kNoMedium) {
+      walk.medium = medium;
+      return true;
+    }
+  }
+  return false;
 }
 
 // Goes on with a walk until it is done (true) or the steps are used up (false).
 bool walkAdvance(inout Walk walk, ScenePtr scene, inout Rng rng, inout WalkCounts counts) {
+  const bool byTree = kMediumTree && walk.mode != kWalkEmit;
   const uint end = walk.mode == kWalkEmit ? walk.hitMedium + 1u : scene.at[0].mediumCount;
   [[dont_unroll]] while (walk.medium < end && walk.transmittance > 0.0) {
     if (counts.stepsLeft == 0u) {
       return false;
     }
     --counts.stepsLeft;
-    const uint gridIndex = walk.mode == kWalkEmit ? scene.at[0].media.at[walk.medium].emissionGrid
-                                                  : scene.at[0].media.at[walk.medium].densityGrid;
-    if (gridIndex == kNoGrid) {
-      walkLeave(walk);
-      continue;
+    if (byTree && walk.entered == 0u && !walkFindMedium(walk, scene, counts)) {
+      if (walk.node < scene.at[0].mediumNodeCount) {
+        return false; // out of steps
+      }
+      walk.medium = end;
+      return true;
     }
-    Grid grid = scene.at[0].grids.at[gridIndex];
-    walkMedium(walk, grid, scene.at[0].media.at[walk.medium].sigmaT, rng, counts);
+    walkHere(walk, scene, rng, counts);
+    if (byTree && walk.entered == 0u) {
+      walk.medium = 0u; // the tree knows the next one
+    }
   }
   return true;
 }

@@ -25,6 +25,12 @@ void parsed(CLI::App& command, const std::string& name, Value& target, const Par
 }
 
 constexpr std::uint32_t kMaxSamples = 1u << 30; // as in a scene file
+constexpr std::uint32_t kMaxDepth = 1u << 16;   // likewise
+
+/// 0 stands for unlimited, as in a scene file.
+std::uint32_t parseDepth(const std::string& option, const std::string& value) {
+  return value == "unlimited" ? 0 : parseWhole(option, value, {0, kMaxDepth});
+}
 
 void addLimits(CLI::App& command, RenderRequest& request) {
   const auto samples = [](const std::string& option, const std::string& value) {
@@ -33,14 +39,8 @@ void addLimits(CLI::App& command, RenderRequest& request) {
   parsed(command, "--spp", request.samples, samples, {"N", "stop after N samples per pixel"});
   parsed(command, "--time", request.seconds, parseSeconds, {"T", "stop after this time: 60, 60s, 2m or 1h"});
   parsed(command, "--error", request.error, parseShare, {"E", "stop at this estimated relative error: 1% or 0.01"});
-  text(
-      command, "--depth",
-      [](const std::string& value) {
-        if (parseWhole("--depth", value, {}) != 1) {
-          fail("--depth {}: this version renders single scattering; leave --depth away or give 1", value);
-        }
-      },
-      "scattering events on a path; this version renders 1", "N");
+  parsed(command, "--depth", request.depth, parseDepth,
+         {"N", "scattering events on a path at most, or \"unlimited\" (default: 1 without objects, unlimited with)"});
 }
 
 void addFilm(CLI::App& command, RenderRequest& request) {
@@ -87,15 +87,16 @@ void addWork(CLI::App& command, RenderRequest& request) {
   text(
       command, "--estimator",
       [&request](const std::string& value) {
-        if (value != "auto" && value != "march" && value != "tracking") {
-          fail("--estimator {}: there are auto (the default), march and tracking", value);
+        if (value != "auto" && value != "march" && value != "tracking" && value != "path") {
+          fail("--estimator {}: there are auto (the default), march, tracking and path", value);
         }
         request.method = value == "march"      ? std::optional(render::Method::March)
                          : value == "tracking" ? std::optional(render::Method::Tracking)
+                         : value == "path"     ? std::optional(render::Method::Path)
                                                : std::nullopt;
       },
-      "how light along a ray is computed: march (exact steps, light caches), tracking (random steps), or auto: the "
-      "march wherever it serves",
+      "how light is computed: march (exact steps, light caches) and tracking (random steps) for one event in media, "
+      "path for everything; auto: the first of them that serves",
       "NAME");
   command.add_flag("--preview", request.preview,
                    "BIASED, for a quick look: the march takes its light caches for true instead of correcting them");

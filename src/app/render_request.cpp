@@ -60,12 +60,13 @@ void checkCombinations(const RenderRequest& request) {
   if (request.densityScale && request.opticalDepth) {
     fail("--density-scale and --optical-depth both say how dense the volume is; give one of them");
   }
-  if (request.preview && (request.method == render::Method::Tracking || request.deltaTracking)) {
-    fail("--preview is the march without its correction, tracking has none; leave --preview or {} away",
-         request.deltaTracking ? "--tracker" : "--estimator tracking");
+  const bool marches = request.method.value_or(render::Method::March) == render::Method::March;
+  if (request.preview && (!marches || request.deltaTracking)) {
+    fail("--preview is the march without its correction, others have none; leave --preview or {} away",
+         request.deltaTracking ? "--tracker" : "--estimator");
   }
-  if (request.method == render::Method::March && request.deltaTracking) {
-    fail("--tracker: the march samples no distances; give --tracker with --estimator tracking, or leave it away");
+  if (request.method.value_or(render::Method::Tracking) != render::Method::Tracking && request.deltaTracking) {
+    fail("--tracker: only tracking has a choice of trackers; give it with --estimator tracking, or leave it away");
   }
   if (volume::isSequence(fs::path(request.input).filename().string()) && !request.frames &&
       !fs::exists(request.input)) {

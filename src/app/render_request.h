@@ -24,6 +24,7 @@ struct RenderRequest {
   std::optional<glm::uvec2> size;
   std::optional<film::Window> crop;
   std::optional<std::uint32_t> seed;
+  std::optional<std::uint32_t> depth; ///< scattering events, 0 = unlimited
   std::vector<scene::Override> overrides;
   std::vector<std::string> aovs;
   bool transparent = false;

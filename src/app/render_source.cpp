@@ -36,6 +36,9 @@ void applyOptions(const RenderRequest& request, scene::Scene& scene) {
   scene.film.transparent = scene.film.transparent || request.transparent;
   scene.render.samples = request.samples.value_or(scene.render.samples);
   scene.render.seed = request.seed.value_or(scene.render.seed);
+  if (request.depth) {
+    scene.render.depth = request.depth;
+  }
 }
 
 std::vector<fs::path> volumeFiles(const RenderRequest& request) {
@@ -181,6 +184,10 @@ std::string sceneHash(const scene::Scene& scene, const gpu_scene::VolumeSet& vol
       map->file = contentsOf(map->file);
     }
   }
+  for (scene::Object& object : core.objects) {
+    object.file = object.file.empty() ? "" : contentsOf(object.file);
+  }
+  core.render.depth = scene.depth(); // however it was chosen
   std::string text = scene::toJson(core);
   for (const volume::BrickGrid& grid : volumes.grids) {
     text += volume::storageName(grid.storage);

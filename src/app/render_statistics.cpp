@@ -47,7 +47,7 @@ Json settingsJson(const RenderRecord& record) {
                 {"size", {scene.film.size.x, scene.film.size.y}},
                 {"samples_limit", scene.render.samples},
                 {"seed", scene.render.seed},
-                {"depth", scene.render.depth},
+                {"depth", scene.depth() == 0 ? Json("unlimited") : Json(scene.depth())},
                 {"estimator", estimatorText(record)},
                 {"transparent", scene.film.transparent},
                 {"exposure_stops", scene.film.exposure},
@@ -121,7 +121,7 @@ film::Metadata pictureMetadata(const RenderRecord& record) {
   film::Metadata metadata;
   metadata["input"] = record.request.input;
   metadata["scene.name"] = record.scene.name;
-  metadata["depth"] = std::to_string(record.scene.render.depth);
+  metadata["depth"] = record.scene.depth() == 0 ? "unlimited" : std::to_string(record.scene.depth());
   metadata["estimator"] = estimatorText(record);
   metadata["estimator.biased"] = record.request.preview ? "1" : "0";
   metadata["stop.reason"] = record.report.stoppedBy;

@@ -46,6 +46,12 @@ std::vector<SceneFile> filesOf(const scene::Scene& scene) {
       files.push_back(fileOf(map->file, label("light", scene.lights[i].name, i)));
     }
   }
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const scene::Object& object = scene.objects[i];
+    if (object.kind == scene::Object::Kind::Mesh) {
+      files.push_back({object.file, label("object", object.name, i), fs::file_size(object.file), 1});
+    }
+  }
   return files;
 }
 
@@ -72,8 +78,15 @@ std::string shapeText(const scene::Medium& medium) {
     return fmt::format("in the box {} to {}", inWords(medium.box.min), inWords(medium.box.max));
   case scene::MediumShape::Sphere:
     return fmt::format("in the ball of radius {:g} about {}", medium.radius, inWords(medium.centre));
+  case scene::MediumShape::Objects:
+    return "inside the objects that name it";
   }
   return "";
+}
+
+/// ", 3 instances"; nothing for a single one.
+std::string copiesText(const std::vector<glm::dmat4>& instances) {
+  return instances.empty() ? "" : fmt::format(", {} instance{}", instances.size(), instances.size() == 1 ? "" : "s");
 }
 
 std::string mediumText(const scene::Medium& medium) {
@@ -82,7 +95,11 @@ std::string mediumText(const scene::Medium& medium) {
           ? fmt::format("homogeneous, extinction {:g}, {}", medium.sigmaT, shapeText(medium))
           : fmt::format("{}, grid {}, density scale {:g}", medium.file,
                         medium.grid.empty() ? "chosen automatically" : "\"" + medium.grid + "\"", medium.densityScale);
-  text += fmt::format(", albedo {}, {}", inWords(medium.albedo), phaseText(medium.phase));
+  if (medium.extinctionColour != glm::dvec3(1.0)) {
+    text += fmt::format(" times {}", inWords(medium.extinctionColour));
+  }
+  text +=
+      fmt::format(", albedo {}, {}{}", inWords(medium.albedo), phaseText(medium.phase), copiesText(medium.instances));
   if (medium.emission) {
     text += medium.emission->kind == scene::Emission::Kind::Blackbody ? ", glows as a blackbody" : ", glows";
     text += medium.emission->grid.empty() ? "" : fmt::format(" by grid \"{}\"", medium.emission->grid);
@@ -93,6 +110,10 @@ std::string mediumText(const scene::Medium& medium) {
 struct LightText {
   std::string operator()(const scene::PointLight& l) const {
     return fmt::format("point at {}, intensity {} W/sr", inWords(l.position), inWords(l.intensity));
+  }
+  std::string operator()(const scene::SpotLight& l) const {
+    return fmt::format("spot at {} towards {}, intensity {} W/sr within {:g} degrees, falling off from {:g}",
+                       inWords(l.position), inWords(l.direction), inWords(l.intensity), l.outerAngle, l.innerAngle);
   }
   std::string operator()(const scene::SunLight& l) const {
     return fmt::format("sun towards {}, irradiance {} W/m2, {:g} degrees wide", inWords(l.direction),
@@ -110,11 +131,64 @@ struct LightText {
   }
 };
 
+std::string materialText(const geometry::Material& material) {
+  std::string text(scene::nameOf(scene::kMaterialTypes, material.model));
+  if (material.model == MaterialId::Null) {
+    return text;
+  }
+  const bool measured = material.model == MaterialId::Conductor && material.k != glm::dvec3(0.0);
+  text += measured ? fmt::format(", eta {}, k {}", inWords(material.eta), inWords(material.k))
+                   : fmt::format(", colour {}", inWords(material.colour));
+  if (material.model != MaterialId::Diffuse) {
+    text += fmt::format(", roughness {:g}", material.roughness);
+  }
+  if (material.model == MaterialId::MetalRough) {
+    text += fmt::format(", metallic {:g}", material.metallic);
+  }
+  if (material.model == MaterialId::Dielectric || material.model == MaterialId::MetalRough) {
+    text += fmt::format(", index of refraction {:g}", material.ior);
+  }
+  text += material.opacity < 1.0 ? fmt::format(", opacity {:g}", material.opacity) : "";
+  if (material.emission != glm::dvec3(0.0)) {
+    text +=
+        fmt::format(", shines {} W/(m2 sr){}", inWords(material.emission), material.twoSided ? " on both sides" : "");
+  }
+  return text;
+}
+
+std::string geometryText(const scene::Object& object) {
+  switch (object.kind) {
+  case scene::Object::Kind::Mesh:
+    return object.file + (object.lights ? "" : " without its lights");
+  case scene::Object::Kind::Quad:
+    return fmt::format("quad at {} along {} and {}", inWords(object.origin), inWords(object.edgeU),
+                       inWords(object.edgeV));
+  case scene::Object::Kind::Box:
+    return fmt::format("box {} to {}", inWords(object.box.min), inWords(object.box.max));
+  case scene::Object::Kind::Sphere:
+    return fmt::format("sphere of radius {:g} about {}", object.radius, inWords(object.centre));
+  }
+  return "";
+}
+
+std::string objectText(const scene::Object& object) {
+  const bool own = object.kind == scene::Object::Kind::Mesh;
+  std::string text = geometryText(object);
+  text += !object.material.empty() ? fmt::format(", material \"{}\"", object.material)
+          : own                    ? ", the file's materials"
+                                   : ", white diffuse";
+  text += object.medium.empty() ? "" : fmt::format(", filled with \"{}\"", object.medium);
+  return text + copiesText(object.instances);
+}
+
 std::string cameraText(const scene::Camera& camera) {
   const std::string lens = camera.kind == scene::Camera::Kind::Perspective
                                ? fmt::format("perspective, {:g} degrees high", camera.verticalFov)
                                : fmt::format("orthographic, {:g} scene units high", camera.height);
-  return fmt::format("{}, at {} towards {}", lens, inWords(camera.position), inWords(camera.target));
+  const std::string focus = camera.lensRadius > 0.0 ? fmt::format(", lens radius {:g}, in focus at {:g}",
+                                                                  camera.lensRadius, camera.focusDistance)
+                                                    : "";
+  return fmt::format("{}{}, at {} towards {}", lens, focus, inWords(camera.position), inWords(camera.target));
 }
 
 } // namespace
@@ -150,13 +224,19 @@ std::string toText(const SceneSummary& summary) {
   line("film", fmt::format("{} x {} pixels, exposure {:+g} stops{}", scene.film.size.x, scene.film.size.y,
                            scene.film.exposure, scene.film.transparent ? ", transparent" : ""));
   line("render", fmt::format("{} samples per pixel, seed {}, depth {}", scene.render.samples, scene.render.seed,
-                             scene.render.depth));
+                             scene.depth() == 0 ? "unlimited" : std::to_string(scene.depth())));
   for (std::size_t i = 0; i < scene.media.size(); ++i) {
     line(label("medium", scene.media[i].name, i), mediumText(scene.media[i]));
   }
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     line(label("light", scene.lights[i].name, i),
          std::visit(LightText{}, scene.lights[i].light) + (scene.lights[i].visible ? "" : ", not seen by the camera"));
+  }
+  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+    line(label("material", scene.materials[i].name, i), materialText(scene.materials[i]));
+  }
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    line(label("object", scene.objects[i].name, i), objectText(scene.objects[i]));
   }
   for (const SceneFile& file : summary.files) {
     line("file", fmt::format("{} ({}{}), for {}", file.path, inBytes(double(file.bytes)),

@@ -25,7 +25,7 @@ struct Options {
 struct Session {
   const Options& options;
   const gpu::Device& device;
-  const volume::BrickGrid& grid; ///< of the volume, not empty
+  const volume::BrickGrid& grid; ///< of the volume, not empty; rays: none
 };
 
 /// Each prints its report and returns it as JSON.
@@ -39,5 +39,7 @@ nlohmann::ordered_json estimatorsReport(const Session& session);
 nlohmann::ordered_json cachesReport(const Session& session);
 /// Share of active lanes in the march, and its cells per second beside those of a bare walk.
 nlohmann::ordered_json lanesReport(const Session& session);
+/// Rays per second through surfaces of our own making, beside Embree's where it is installed.
+nlohmann::ordered_json raysReport(const Session& session);
 
 } // namespace tyndall::bench

@@ -92,7 +92,7 @@ CacheBuild buildCaches(const gpu::Device& device, const gpu_scene::GpuScene& gpu
 
 std::vector<std::uint32_t> measuredPixels(const BenchScene& scene) {
   const glm::uvec2 size = scene.scene.film.size;
-  const std::vector<bool> coverage = render::mediaCoverage(scene.scene, scene.volumes);
+  const std::vector<bool> coverage = render::sceneCoverage(scene.scene, scene.volumes);
   std::vector<std::uint32_t> pixels = render::dispatchOrder({glm::uvec2(0), size});
   std::erase_if(pixels, [&](std::uint32_t pixel) {
     const glm::uvec2 place(pixel & 0xffffu, pixel >> 16);

@@ -19,6 +19,7 @@ struct Command {
   const char* name;
   const char* help;
   Report report;
+  bool readsVolume = true;
 };
 
 constexpr Command kCommands[] = {
@@ -26,10 +27,13 @@ constexpr Command kCommands[] = {
     {"estimators", "Variance times time of the march and of tracking", estimatorsReport},
     {"caches", "Light caches: memory, build time, and what small budgets cost", cachesReport},
     {"lanes", "Active lanes and cells per second of the march", lanesReport},
+    {"rays", "Rays per second through surfaces, beside Embree", raysReport, false},
 };
 
-void addOptions(CLI::App& app, Options& options) {
-  app.add_option("volume", options.volume, "A .vdb file")->required();
+void addOptions(CLI::App& app, const Command& command, Options& options) {
+  if (command.readsVolume) {
+    app.add_option("volume", options.volume, "A .vdb file")->required();
+  }
   app.add_option("--size", options.size, "Picture edge, pixels")->check(CLI::Range(16, 8192));
   app.add_option("--repeats", options.repeats, "Timed rounds, each with a seed of its own")
       ->check(CLI::Range(4, 10000));
@@ -51,18 +55,25 @@ void writeJson(const std::string& path, const nlohmann::ordered_json& report) {
   });
 }
 
+volume::BrickGrid loadedGrid(const Options& options) {
+  volume::BrickGrid grid = volume::loadGrid(options.volume, {});
+  if (grid.empty()) {
+    fail("{}: the grid \"{}\" is empty; name a volume that holds density", options.volume, grid.name);
+  }
+  return grid;
+}
+
 int run(const Command& command, const Options& options) {
   if (!options.json.empty()) {
     checkWritable(options.json);
   }
   const gpu::Device device({.select = options.device, .validation = false, .pipelineCache = {}});
-  const volume::BrickGrid grid = volume::loadGrid(options.volume, {});
-  if (grid.empty()) {
-    fail("{}: the grid \"{}\" is empty; name a volume that holds density", options.volume, grid.name);
-  }
-  fmt::print("{} on {}\n{} at {}x{}, {} active voxels as {}, {} repeats\n", device.info().name, device.info().driver,
-             options.volume, options.size, options.size, grid.activeVoxels, volume::storageName(grid.storage),
-             options.repeats);
+  const volume::BrickGrid grid = command.readsVolume ? loadedGrid(options) : volume::BrickGrid{};
+  fmt::print("{} on {}\n{}{}x{} pixels, {} repeats\n", device.info().name, device.info().driver,
+             command.readsVolume ? fmt::format("{}, {} active voxels as {}, ", options.volume, grid.activeVoxels,
+                                               volume::storageName(grid.storage))
+                                 : "",
+             options.size, options.size, options.repeats);
   nlohmann::ordered_json report{
       {"command", command.name},      {"version", TYNDALL_VERSION},
       {"device", device.info().name}, {"driver", device.info().driver},
@@ -84,7 +95,7 @@ int main(int argc, char** argv) {
   CLI::App app("Measures Tyndall on one volume");
   app.require_subcommand(1);
   for (const Command& command : kCommands) {
-    addOptions(*app.add_subcommand(command.name, command.help), options);
+    addOptions(*app.add_subcommand(command.name, command.help), command, options);
   }
   CLI11_PARSE(app, argc, argv);
   try {

@@ -37,7 +37,7 @@ std::vector<bool> wantedBricks(const PackedMedia& media, std::size_t index, std:
   std::vector<bool> wanted(bricks, false);
   for (const PackedMedia::Placement& placement : media.placements) {
     for (std::size_t b = 0; placement.grid == index && b < bricks; ++b) {
-      wanted[b] = wanted[b] || placement.maxima[b] > 0.0f;
+      wanted[b] = wanted[b] || media.source(placement).maxima[b] > 0.0f;
     }
   }
   return wanted;
@@ -89,7 +89,7 @@ double plannedCellBytes(const PackedMedia& media, const VolumeSet& volumes) {
     bytes += voxelBytes(media, volumes, g);
   }
   for (const PackedMedia::Placement& placement : media.placements) {
-    bytes += double(placement.maxima.size() + placement.coarseMaxima.size()) * sizeof(float);
+    bytes += double(media.source(placement).maxima.size() + media.source(placement).coarseMaxima.size()) * sizeof(float);
   }
   return bytes;
 }
@@ -108,10 +108,10 @@ CellGrids::CellGrids(const gpu::Device& device, const PackedMedia& media, const 
     const auto& [cells, voxels] = byGrid[placement.grid];
     std::vector<std::uint32_t> table = cells.blockOfBrick;
     for (std::size_t b = 0; b < table.size(); ++b) {
-      table[b] = placement.maxima[b] > 0.0f ? table[b] : kEmptyBrick;
+      table[b] = media.source(placement).maxima[b] > 0.0f ? table[b] : kEmptyBrick;
     }
     blocks_.emplace_back(device, std::span<const std::uint32_t>(table));
-    floats_.emplace_back(device, std::span<const float>(placement.coarseMaxima));
+    floats_.emplace_back(device, std::span<const float>(media.source(placement).coarseMaxima));
     interop::CellGrid header{};
     header.voxelFromWorld = placement.header.voxelFromWorld;
     header.boundsMin = placement.header.boundsMin;

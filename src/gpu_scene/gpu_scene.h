@@ -4,8 +4,11 @@
 #include "gpu/buffer.h"
 #include "gpu_scene/atlas.h"
 #include "gpu_scene/cell_grids.h"
+#include "gpu_scene/emitters.h"
 #include "gpu_scene/lights.h"
 #include "gpu_scene/media.h"
+#include "gpu_scene/medium_tree.h"
+#include "gpu_scene/surface_buffers.h"
 #include "gpu_scene/volumes.h"
 #include "interop/scene.h"
 #include "scene/scene.h"
@@ -26,13 +29,29 @@ struct Features {
   bool distantAreas = false;
   bool orthographic = false;
   bool background = false;
+  // Of the pass `path` alone:
+  bool homogeneousEmission = false;
+  bool chromatic = false;
+  bool surfaces = false;
+  std::uint32_t materialMask = 0;
+  bool textures = false;
+  bool spheres = false;
+  bool instances = false;
+  bool passing = false;
+  bool interiors = false;
+  bool emitters = false;
+  bool emissiveSurfaces = false;
+  bool volumeEmitters = false;
+  bool lens = false;
+  bool mediumTree = false; ///< many media with grids: a tree of their boxes is walked
   bool overlapOfGrids = false; ///< more than one medium with a density grid: delta tracking, see tracker/walk.glsl
 };
 
-/// How grids lie in device memory.
+/// How grids lie in device memory, and what else is there.
 enum class GridLayout {
   Atlas, ///< as loaded, in 3D images: for null-collision tracking
-  Cells  ///< as blocks of floats (interop/cells.h): for walks from cell to cell
+  Cells, ///< as blocks of floats (interop/cells.h): for walks from cell to cell
+  Paths  ///< as Atlas; surfaces and the light tree are uploaded too
 };
 
 /// A scene in device memory. Owns everything; kernels borrow addresses.
@@ -55,12 +74,17 @@ public:
   /// Homogeneous media and lights: what a stage of the trace pass loops over.
   std::uint32_t loopCount() const { return loopCount_; }
   const std::vector<std::string>& notes() const { return notes_; }
+  const PackedSurfaces& surfaces() const { return surfaces_; }
+  const PackedEmitters& emitters() const { return emitters_; }
+  /// Bytes of surfaces, textures and light tree in device memory.
+  std::size_t surfaceBytes() const { return surfaceBuffers_.bytes(); }
   /// Of everything bounded, in world space.
   const Bounds3& bounds() const { return bounds_; }
   /// World-space point that device coordinates are relative to.
   const glm::dvec3& centre() const { return centre_; }
 
 private:
+  void addSurfaces(const gpu::Device& device, const scene::Scene& scene, const MeshSet& meshes);
   void uploadGrids(const gpu::Device& device);
   void uploadLights(const gpu::Device& device);
 
@@ -69,9 +93,13 @@ private:
   glm::dvec3 centre_{0.0};
   PackedMedia packed_;
   PackedLights lights_;
+  PackedSurfaces surfaces_;
+  PackedEmitters emitters_;
+  SurfaceBuffers surfaceBuffers_;
   Atlas atlas_;
   CellGrids cellGrids_;
   Features features_;
+  float emitterShare_ = 0.0f;
   std::uint32_t loopCount_ = 0;
   std::vector<std::string> notes_;
   std::vector<gpu::Buffer<interop::Brick>> bricks_;
@@ -80,6 +108,7 @@ private:
   std::vector<gpu::Buffer<interop::AliasEntry>> cells_;
   gpu::Buffer<interop::Grid> grids_;
   gpu::Buffer<interop::Medium> media_;
+  gpu::Buffer<interop::MediumNode> mediumNodes_;
   gpu::Buffer<std::uint32_t> emissive_;
   gpu::Buffer<interop::PointLight> points_;
   gpu::Buffer<interop::DistantLight> distant_;

@@ -87,6 +87,8 @@ private:
     pointGuesses_.push_back(reach > 0.0 ? strength / (reach * reach) : strength);
   }
 
+  void addLight(const scene::SpotLight&) {} // an emitter: only paths know it
+
   void addDistant(interop::DistantLight light, double irradiance) {
     light.visible = visible_ ? 1 : 0;
     out_.background |= visible_ && light.kind != interop::kDistantDelta;

@@ -12,6 +12,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numbers>
 
 namespace tyndall::gpu_scene {
 namespace {
@@ -31,11 +33,20 @@ Bounds3 mediumBounds(const scene::Medium& medium, const VolumeSet& volumes, cons
   } else if (medium.homogeneous() && medium.shape == scene::MediumShape::Sphere) {
     local = {medium.centre - medium.radius, medium.centre + medium.radius};
   }
-  return transformed(medium.worldFromMedium, local);
+  Bounds3 bounds;
+  for (const glm::dmat4& place : placements(medium.worldFromMedium, medium.instances)) {
+    bounds.extend(transformed(place, local));
+  }
+  return bounds;
 }
+
+double largest(const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); }
 
 Medium commonFields(const scene::Medium& medium) {
   Medium packed{};
+  const double strongest = largest(medium.extinctionColour);
+  packed.colour = strongest > 0.0 ? glm::vec3(medium.extinctionColour / strongest) : glm::vec3(1.0f);
+  packed.emitter = interop::kNoEmitter;
   packed.phase = packPhase(medium.phase);
   packed.albedo = medium.albedo;
   packed.densityGrid = interop::kNoGrid;
@@ -43,20 +54,43 @@ Medium commonFields(const scene::Medium& medium) {
   return packed;
 }
 
-Medium packHomogeneous(const scene::Medium& medium, const glm::dvec3& centre) {
+/// World volume of a bounded shape; 0 for others.
+double shapeVolume(const scene::Medium& medium, const glm::dmat4& worldFromMedium) {
+  const double scale = std::abs(glm::determinant(glm::dmat3(worldFromMedium)));
+  if (medium.shape == scene::MediumShape::Box) {
+    const glm::dvec3 size = medium.box.size();
+    return scale * size.x * size.y * size.z;
+  }
+  const double radius = medium.radius;
+  return medium.shape == scene::MediumShape::Sphere ? scale * 4.0 / 3.0 * std::numbers::pi * radius * radius * radius : 0.0;
+}
+
+std::uint32_t deviceShape(scene::MediumShape shape) {
+  switch (shape) {
+  case scene::MediumShape::Unbounded:
+    return interop::kShapeUnbounded;
+  case scene::MediumShape::Box:
+    return interop::kShapeBox;
+  case scene::MediumShape::Sphere:
+    return interop::kShapeSphere;
+  case scene::MediumShape::Objects:
+    return interop::kShapeInterior;
+  }
+  return interop::kShapeUnbounded;
+}
+
+Medium packHomogeneous(const scene::Medium& medium, const glm::dmat4& worldFromMedium, const glm::dvec3& centre) {
   Medium packed = commonFields(medium);
-  packed.sigmaT = static_cast<float>(medium.sigmaT);
+  packed.sigmaT = static_cast<float>(medium.sigmaT * largest(medium.extinctionColour));
   // About the shape's own centre: its corners may be given far from the origin.
   const bool sphere = medium.shape == scene::MediumShape::Sphere;
   const glm::dvec3 middle = sphere                                    ? medium.centre
                             : medium.shape == scene::MediumShape::Box ? medium.box.centre()
                                                                       : glm::dvec3(0.0);
-  const glm::dmat4 mediumFromWorld = glm::translate(glm::dmat4(1.0), -middle) * glm::inverse(medium.worldFromMedium) *
+  const glm::dmat4 mediumFromWorld = glm::translate(glm::dmat4(1.0), -middle) * glm::inverse(worldFromMedium) *
                                      glm::translate(glm::dmat4(1.0), centre);
   packed.mediumFromWorld = glm::mat4x3(glm::dmat4x3(mediumFromWorld));
-  packed.shape = medium.shape == scene::MediumShape::Box      ? interop::kShapeBox
-                 : medium.shape == scene::MediumShape::Sphere ? interop::kShapeSphere
-                                                              : interop::kShapeUnbounded;
+  packed.shape = deviceShape(medium.shape);
   packed.shapeMin = sphere ? glm::dvec3(0.0) : medium.box.min - middle;
   packed.shapeMax = sphere ? glm::dvec3(medium.radius) : medium.box.max - middle;
   if (medium.emission) {
@@ -66,10 +100,11 @@ Medium packHomogeneous(const scene::Medium& medium, const glm::dvec3& centre) {
       j *= light::blackbodyRadiance(emission.temperature);
     }
     if (emission.tiedToAbsorption) {
-      j *= medium.sigmaT * (1.0 - medium.albedo);
+      j *= medium.sigmaT * medium.extinctionColour * (1.0 - medium.albedo);
     }
     packed.emission = j;
-    packed.emissionKind = interop::kEmissionLinear;
+    packed.emissionKind = luminance(j) > 0.0 ? interop::kEmissionLinear : interop::kEmissionNone;
+    packed.emissionMeasure = static_cast<float>(shapeVolume(medium, worldFromMedium));
   }
   return packed;
 }
@@ -140,12 +175,13 @@ public:
   MediaPacker(const VolumeSet& volumes, const glm::dvec3& centre, PackedMedia& out)
       : volumes_(volumes), centre_(centre), out_(out) {}
 
-  void addGrid(const scene::Medium& medium, const VolumeSet::Use& use) {
+  void addGrid(const scene::Medium& medium, const VolumeSet::Use& use, const glm::dmat4& worldFromMedium) {
     Medium packed = commonFields(medium);
-    packed.sigmaT = static_cast<float>(medium.densityScale);
+    worldFromMedium_ = worldFromMedium;
+    packed.sigmaT = static_cast<float>(medium.densityScale * largest(medium.extinctionColour));
     if (use.density && !volumes_.grids[*use.density].empty() && medium.densityScale > 0.0) {
       const BrickGrid& grid = volumes_.grids[*use.density];
-      packed.densityGrid = place(*use.density, medium, densityMaxima(grid));
+      packed.densityGrid = place(*use.density, {&medium, false}, [&] { return densityMaxima(grid); });
     }
     if (medium.emission && use.emission && !volumes_.grids[*use.emission].empty()) {
       addEmission(medium, *use.emission, packed);
@@ -160,10 +196,22 @@ public:
   }
 
 private:
-  std::uint32_t place(std::size_t gridIndex, const scene::Medium& medium, std::vector<float> maxima) {
+  /// What a placement's maxima are made of: a medium's density or its emission.
+  using Source = std::pair<const scene::Medium*, bool>;
+
+  template <class MakeMaxima>
+  std::uint32_t place(std::size_t gridIndex, const Source& source, MakeMaxima makeMaxima) {
     const BrickGrid& grid = volumes_.grids[gridIndex];
-    PackedMedia::Placement placement{gridIndex, packGrid(grid, medium.worldFromMedium, centre_), std::move(maxima), {}};
-    placement.coarseMaxima = coarsen(grid, placement.maxima);
+    PackedMedia::Placement placement;
+    placement.grid = gridIndex;
+    placement.header = packGrid(grid, worldFromMedium_, centre_);
+    const auto [first, isNew] = firstOf_.try_emplace(source, out_.placements.size());
+    if (isNew) {
+      placement.maxima = makeMaxima();
+      placement.coarseMaxima = coarsen(grid, placement.maxima);
+    } else {
+      placement.sameAs = first->second;
+    }
     out_.placements.push_back(std::move(placement));
     return static_cast<std::uint32_t>(out_.placements.size() - 1);
   }
@@ -171,19 +219,52 @@ private:
   void addEmission(const scene::Medium& medium, std::size_t gridIndex, Medium& packed) {
     const BrickGrid& grid = volumes_.grids[gridIndex];
     const scene::Emission& settings = *medium.emission;
-    const GridEmission emission{settings, temperatureScaleFor(settings, grid, out_.notes)};
+    std::vector<std::string> repeated; // said once, whatever the instances
+    const bool first = !firstOf_.contains({&medium, true});
+    const GridEmission emission{settings, temperatureScaleFor(settings, grid, first ? out_.notes : repeated)};
     packed.emission = settings.scale * settings.colour;
     packed.emissionKind =
         settings.kind == scene::Emission::Kind::Linear ? interop::kEmissionLinear : interop::kEmissionBlackbody;
     packed.emissionTied = settings.tiedToAbsorption ? 1 : 0;
     packed.temperatureScale = static_cast<float>(emission.temperatureScale);
     packed.temperatureOffset = static_cast<float>(settings.temperatureOffset);
-    packed.emissionGrid = place(gridIndex, medium, emissionMaxima(grid, emission));
+    packed.emissionGrid = place(gridIndex, {&medium, true}, [&] { return emissionMaxima(grid, emission); });
+    measureEmission(packed);
+  }
+
+  /// Sums over the bricks, by which a point of the emission is drawn: maximum times the volume inside the bounds.
+  void measureEmission(Medium& packed) {
+    PackedMedia::Placement& placement = out_.placements[packed.emissionGrid];
+        const interop::Grid& header = placement.header;
+    const double voxelVolume = 1.0 / std::abs(glm::determinant(glm::dmat3(glm::mat3(header.voxelFromWorld))));
+    if (placement.sameAs) {
+      const PackedMedia::Placement& first = out_.source(placement);
+      const double firstVolume = 1.0 / std::abs(glm::determinant(glm::dmat3(glm::mat3(first.header.voxelFromWorld))));
+      packed.emissionMeasure = static_cast<float>(double(first.cumulative.back()) / firstVolume * voxelVolume);
+      return;
+    }
+    double sum = 0.0;
+    std::size_t brick = 0;
+    placement.cumulative.reserve(placement.maxima.size());
+    for (int z = 0; z < header.brickCount.z; ++z) {
+      for (int y = 0; y < header.brickCount.y; ++y) {
+        for (int x = 0; x < header.brickCount.x; ++x, ++brick) {
+          const glm::dvec3 low = glm::max(glm::dvec3(x, y, z) * double(interop::kBrickEdge), glm::dvec3(header.boundsMin));
+          const glm::dvec3 high = glm::min(glm::dvec3(x + 1, y + 1, z + 1) * double(interop::kBrickEdge), glm::dvec3(header.boundsMax));
+          const glm::dvec3 size = glm::max(high - low, glm::dvec3(0.0));
+          sum += double(placement.maxima[brick]) * size.x * size.y * size.z * voxelVolume;
+          placement.cumulative.push_back(static_cast<float>(sum));
+        }
+      }
+    }
+    packed.emissionMeasure = static_cast<float>(sum);
   }
 
   const VolumeSet& volumes_;
   const glm::dvec3& centre_;
   PackedMedia& out_;
+  glm::dmat4 worldFromMedium_{1.0};
+  std::map<Source, std::size_t> firstOf_;
 };
 
 } // namespace
@@ -193,9 +274,12 @@ Bounds3 sceneBounds(const scene::Scene& scene, const VolumeSet& volumes) {
   for (std::size_t i = 0; i < scene.media.size(); ++i) {
     bounds.extend(mediumBounds(scene.media[i], volumes, volumes.uses[i]));
   }
+  bounds.extend(objectBounds(scene, volumes.meshes));
   for (const scene::NamedLight& named : scene.lights) {
     if (const auto* point = std::get_if<scene::PointLight>(&named.light)) {
       bounds.extend(point->position);
+    } else if (const auto* spot = std::get_if<scene::SpotLight>(&named.light)) {
+      bounds.extend(spot->position);
     }
   }
   if (bounds.empty()) {
@@ -232,17 +316,26 @@ interop::Phase packPhase(const scene::Phase& phase) {
 
 PackedMedia packMedia(const scene::Scene& scene, const VolumeSet& volumes, const glm::dvec3& centre) {
   PackedMedia out;
-  for (const scene::Medium& medium : scene.media) {
+  out.indexOf.assign(scene.media.size(), interop::kNoMedium);
+  for (std::size_t i = 0; i < scene.media.size(); ++i) {
+    const scene::Medium& medium = scene.media[i];
     out.phaseMask |= 1u << static_cast<unsigned>(medium.phase.id);
+    out.chromatic |= medium.extinctionColour != glm::dvec3(medium.extinctionColour.x);
     if (medium.homogeneous()) {
-      out.media.push_back(packHomogeneous(medium, centre));
+      out.indexOf[i] = static_cast<std::uint32_t>(out.media.size());
+      for (const glm::dmat4& place : placements(medium.worldFromMedium, medium.instances)) {
+        out.media.push_back(packHomogeneous(medium, place, centre));
+      }
     }
   }
   out.homogeneousCount = static_cast<std::uint32_t>(out.media.size());
   MediaPacker packer(volumes, centre, out);
   for (std::size_t i = 0; i < scene.media.size(); ++i) {
     if (!scene.media[i].homogeneous()) {
-      packer.addGrid(scene.media[i], volumes.uses[i]);
+      out.indexOf[i] = static_cast<std::uint32_t>(out.media.size());
+      for (const glm::dmat4& place : placements(scene.media[i].worldFromMedium, scene.media[i].instances)) {
+        packer.addGrid(scene.media[i], volumes.uses[i], place);
+      }
     }
   }
   return out;
@@ -260,6 +353,11 @@ interop::Camera packCamera(const scene::Camera& camera, const glm::uvec2& imageS
   packed.corner = perspective ? forward + cornerOffset : forward;
   packed.rasterX = 2.0 * halfWidth * right;
   packed.rasterY = -2.0 * halfHeight * up;
+  if (perspective && camera.lensRadius > 0.0) {
+    packed.lensX = camera.lensRadius * right;
+    packed.lensY = camera.lensRadius * up;
+  }
+  packed.focusDistance = static_cast<float>(camera.focusDistance);
   return packed;
 }
 

@@ -6,13 +6,15 @@
 #include "math/bounds.h"
 #include "scene/scene.h"
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 /// Scene values -> device structs, without a device: pure functions.
 namespace tyndall::gpu_scene {
 
-/// World bounds of everything bounded: media and point lights; the camera's position if there is nothing else.
+/// World bounds of everything bounded: media, objects, point and spot lights; the camera's position if there is nothing else.
 Bounds3 sceneBounds(const scene::Scene& scene, const VolumeSet& volumes);
 
 /// A grid on the device but for its addresses. World space is centred on `centre`.
@@ -29,12 +31,21 @@ struct PackedMedia {
     interop::Grid header;      ///< addresses still empty
     std::vector<float> maxima; ///< per brick: density maxima, or the luminance of the strongest emission
     std::vector<float> coarseMaxima;
+    std::optional<std::size_t> sameAs; ///< an earlier placement whose bricks and maxima these are; then both are empty
+    std::vector<float> cumulative;     ///< of emission: sums over bricks of maximum * volume inside the bounds
   };
+  std::vector<std::uint32_t> indexOf; ///< per medium of the scene: its first one in `media`, or interop::kNoMedium
   std::vector<interop::Medium> media;
   std::vector<Placement> placements;
   std::vector<std::uint32_t> emissive;
   std::uint32_t homogeneousCount = 0;
   std::uint32_t phaseMask = 0;
+  bool chromatic = false; ///< an extinction differs by channel
+
+  /// The placement that holds the bricks and maxima of `placement`.
+  const Placement& source(const Placement& placement) const {
+    return placement.sameAs ? placements[*placement.sameAs] : placement;
+  }
   std::vector<std::string> notes; ///< e.g. how a temperature grid was mapped to kelvin
 };
 /// @param centre the world point that device coordinates are relative to.

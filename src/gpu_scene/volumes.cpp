@@ -150,6 +150,8 @@ VolumeSet loadVolumes(const scene::Scene& scene, double memoryBudget) {
          set.deviceBytes() * 1e-6, memoryBudget * 1e-6, sizes(set));
   }
   loader.collectNotes();
+  set.meshes = loadMeshes(scene);
+  set.notes.insert(set.notes.end(), set.meshes.notes.begin(), set.meshes.notes.end());
   return set;
 }
 

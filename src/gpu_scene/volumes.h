@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "gpu_scene/meshes.h"
 #include "scene/scene.h"
 #include "volume/brick_grid.h"
 
@@ -11,7 +12,7 @@
 
 namespace tyndall::gpu_scene {
 
-/// The grids that a scene's media name, each loaded once.
+/// What the files hold that a scene names, each loaded once: the grids of its media, the meshes of its objects.
 struct VolumeSet {
   struct Use {
     std::optional<std::size_t> density; ///< index into grids
@@ -19,6 +20,7 @@ struct VolumeSet {
   };
   std::vector<volume::BrickGrid> grids;
   std::vector<Use> uses;          ///< one per medium of the scene
+  MeshSet meshes;
   std::vector<std::string> notes; ///< sentences for the user: "file: grid: ..."
 
   double deviceBytes() const;

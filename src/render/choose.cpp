@@ -50,6 +50,20 @@ std::string obstacle(const scene::Scene& scene, const gpu_scene::VolumeSet& volu
   return "";
 }
 
+/// What only paths can follow, or empty.
+std::string needForPaths(const scene::Scene& scene, const gpu_scene::PackedMedia& media) {
+  const bool spots = std::any_of(scene.lights.begin(), scene.lights.end(), [](const scene::NamedLight& named) {
+    return std::holds_alternative<scene::SpotLight>(named.light);
+  });
+  return !scene.objects.empty()            ? "there are surfaces"
+         : scene.depth() != 1              ? "light scatters more than once"
+         : media.chromatic                 ? "extinction differs by channel"
+         : spots                           ? "there are spot lights"
+         : scene.camera.lensRadius > 0.0 && scene.camera.kind == scene::Camera::Kind::Perspective
+             ? "the camera has a lens"
+             : "";
+}
+
 /// The set of sky directions is too coarse for a narrow peak, and nothing else would gain from the march.
 bool trackingIsBetter(const scene::Scene& scene, const gpu_scene::PackedMedia& media) {
   const bool sky =
@@ -65,10 +79,17 @@ bool trackingIsBetter(const scene::Scene& scene, const gpu_scene::PackedMedia& m
 
 MethodChoice chooseMethod(const scene::Scene& scene, const gpu_scene::VolumeSet& volumes, std::optional<Method> wanted,
                           double memoryBytes) {
+  const gpu_scene::PackedMedia media = gpu_scene::packMedia(scene, volumes, sceneBounds(scene, volumes).centre());
+  const std::string need = needForPaths(scene, media);
+  if (!need.empty() && wanted && *wanted != Method::Path) {
+    fail("--estimator {}: it follows one event in media, but {}; use --estimator path or auto", methodName(*wanted), need);
+  }
+  if (!need.empty() || wanted == Method::Path) {
+    return {Method::Path, 0.0, need.empty() ? "as asked for" : need};
+  }
   if (wanted == Method::Tracking) {
     return {Method::Tracking, 0.0, "as asked for"};
   }
-  const gpu_scene::PackedMedia media = gpu_scene::packMedia(scene, volumes, sceneBounds(scene, volumes).centre());
   const double cellBytes = gpu_scene::plannedCellBytes(media, volumes);
   const std::string why = obstacle(scene, volumes, media, memoryBytes);
   if (!why.empty() && wanted) {

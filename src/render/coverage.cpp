@@ -126,35 +126,53 @@ void markGrid(Mask& mask, const glm::dmat4& worldFromMedium, const BrickGrid& gr
   }
 }
 
-void markHomogeneous(Mask& mask, const scene::Medium& medium) {
+void markHomogeneous(Mask& mask, const scene::Medium& medium, const glm::dmat4& worldFromMedium) {
   switch (medium.shape) {
   case scene::MediumShape::Unbounded:
     mask.markAll();
     return;
   case scene::MediumShape::Box:
-    mask.markBox(medium.worldFromMedium, medium.box);
+    mask.markBox(worldFromMedium, medium.box);
     return;
   case scene::MediumShape::Sphere:
-    mask.markBox(medium.worldFromMedium, {medium.centre - medium.radius, medium.centre + medium.radius});
+    mask.markBox(worldFromMedium, {medium.centre - medium.radius, medium.centre + medium.radius});
     return;
+  case scene::MediumShape::Objects:
+    return; // its objects are marked
+  }
+}
+
+void markMedium(Mask& mask, const scene::Medium& medium, const gpu_scene::VolumeSet& volumes,
+                const gpu_scene::VolumeSet::Use& use) {
+  for (const glm::dmat4& place : gpu_scene::placements(medium.worldFromMedium, medium.instances)) {
+    if (medium.homogeneous()) {
+      markHomogeneous(mask, medium, place);
+    }
+    if (use.density && !volumes.grids[*use.density].empty()) {
+      markGrid(mask, place, volumes.grids[*use.density], 0.0);
+    }
+    if (medium.emission && use.emission && !volumes.grids[*use.emission].empty()) {
+      markGrid(mask, place, volumes.grids[*use.emission], medium.emission->temperatureOffset);
+    }
   }
 }
 
 } // namespace
 
-std::vector<bool> mediaCoverage(const scene::Scene& scene, const gpu_scene::VolumeSet& volumes) {
+std::vector<bool> sceneCoverage(const scene::Scene& scene, const gpu_scene::VolumeSet& volumes) {
   Mask mask(scene.camera, scene.film.size);
+  if (scene.camera.lensRadius > 0.0) {
+    mask.markAll(); // out of focus everything is wider than it stands
+    return mask.take();
+  }
   for (std::size_t i = 0; i < scene.media.size(); ++i) {
-    const scene::Medium& medium = scene.media[i];
-    if (medium.homogeneous()) {
-      markHomogeneous(mask, medium);
-    }
-    if (volumes.uses[i].density && !volumes.grids[*volumes.uses[i].density].empty()) {
-      markGrid(mask, medium.worldFromMedium, volumes.grids[*volumes.uses[i].density], 0.0);
-    }
-    if (medium.emission && volumes.uses[i].emission && !volumes.grids[*volumes.uses[i].emission].empty()) {
-      markGrid(mask, medium.worldFromMedium, volumes.grids[*volumes.uses[i].emission],
-               medium.emission->temperatureOffset);
+    markMedium(mask, scene.media[i], volumes, volumes.uses[i]);
+  }
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const Bounds3 local = gpu_scene::localBounds(scene.objects[i], volumes.meshes, i);
+    for (const glm::dmat4& place :
+         gpu_scene::placements(scene.objects[i].worldFromObject, scene.objects[i].instances)) {
+      mask.markBox(place, local);
     }
   }
   return mask.take();

@@ -11,6 +11,6 @@ namespace tyndall::render {
 /// Which pixels a medium can be seen through, conservatively: a pixel that is not marked sees the background alone
 /// from anywhere in its footprint. Grids are marked brick by brick.
 /// @return image size.x * size.y flags, x fastest.
-std::vector<bool> mediaCoverage(const scene::Scene& scene, const gpu_scene::VolumeSet& volumes);
+std::vector<bool> sceneCoverage(const scene::Scene& scene, const gpu_scene::VolumeSet& volumes);
 
 } // namespace tyndall::render

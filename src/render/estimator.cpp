@@ -2,6 +2,7 @@
 #include "render/estimator.h"
 
 #include "render/marcher.h"
+#include "render/path_tracer.h"
 #include "render/tracer.h"
 
 namespace tyndall::render {
@@ -15,10 +16,41 @@ constexpr std::uint32_t kMarchChunkOnGpu = 65536;
 
 } // namespace
 
-const char* methodName(Method method) { return method == Method::March ? "march" : "tracking"; }
+const char* methodName(Method method) {
+  switch (method) {
+  case Method::March:
+    return "march";
+  case Method::Tracking:
+    return "tracking";
+  case Method::Path:
+    return "path";
+  }
+  return "";
+}
 
 gpu_scene::GridLayout layoutOf(Method method) {
-  return method == Method::March ? gpu_scene::GridLayout::Cells : gpu_scene::GridLayout::Atlas;
+  switch (method) {
+  case Method::March:
+    return gpu_scene::GridLayout::Cells;
+  case Method::Tracking:
+    return gpu_scene::GridLayout::Atlas;
+  case Method::Path:
+    return gpu_scene::GridLayout::Paths;
+  }
+  return gpu_scene::GridLayout::Atlas;
+}
+
+/// Of a state that waits for the next dispatch.
+double stateBytes(Method method) {
+  switch (method) {
+  case Method::March:
+    return 0.0;
+  case Method::Tracking:
+    return sizeof(interop::TraceState);
+  case Method::Path:
+    return sizeof(interop::PathState);
+  }
+  return 0.0;
 }
 
 std::uint32_t chunkFor(const gpu::Device& device, const EstimatorOptions& options) {
@@ -34,12 +66,15 @@ std::unique_ptr<Estimator> makeEstimator(const gpu::Device& device, const gpu_sc
   if (options.method == Method::March) {
     return std::make_unique<Marcher>(device, scene, volumes, options);
   }
+  if (options.method == Method::Path) {
+    return std::make_unique<PathTracer>(device, scene, options);
+  }
   return std::make_unique<Tracer>(device, scene, options);
 }
 
 double plannedBytes(const gpu::Device& device, const EstimatorOptions& options) {
   const double perPixel = sizeof(std::uint32_t) + sizeof(interop::PixelSums) +
-                          (options.method == Method::Tracking ? 2.0 * sizeof(interop::TraceState) : 0.0);
+                          2.0 * stateBytes(options.method);
   return perPixel * chunkFor(device, options);
 }
 

@@ -3,6 +3,7 @@
 
 #include "gpu_scene/gpu_scene.h"
 #include "interop/pixel_sums.h"
+#include "passes/path/path_io.h"
 
 #include <cstdint>
 #include <map>
@@ -12,10 +13,12 @@
 
 namespace tyndall::render {
 
-/// How the light along a camera ray is computed. Both are unbiased and have the same expectation.
+/// How the light along a camera ray is computed. All are unbiased; where more than one serves, they have the same
+/// expectation.
 enum class Method {
-  March,   ///< exact march, light caches, a few corrections per ray (passes/march)
-  Tracking ///< null-collision tracking (passes/trace)
+  March,    ///< exact march, light caches, a few corrections per ray (passes/march): media alone, one event
+  Tracking, ///< null-collision tracking (passes/trace): media alone, one event
+  Path      ///< paths of any length, between surfaces too (passes/path)
 };
 const char* methodName(Method method);
 
@@ -31,6 +34,9 @@ struct EstimatorOptions {
   double cacheBytes = 256e6;     ///< march: for light caches at most
   std::uint32_t chunkPixels = 0; ///< pixels of one dispatch; 0 = by the device's kind
   std::uint32_t stepBound = 0;   ///< tracking: steps of one invocation in one dispatch; 0 = by the device's kind
+  std::uint32_t lightSelection = interop::kSelectTree; ///< paths: interop::kSelect*
+  std::uint32_t techniques =
+      interop::kTechniqueLight | interop::kTechniqueDirection; ///< paths: interop::kTechnique*, one or both
   std::uint32_t plantedBug = 0;  ///< tests only: interop::kBug*
 };
 
@@ -47,6 +53,8 @@ struct Totals {
   std::uint64_t nonFinite = 0;
   std::uint64_t negative = 0;         ///< tracking
   std::uint64_t majorantExceeded = 0; ///< tracking
+  std::uint64_t events = 0;           ///< paths: scattering events
+  std::uint64_t longest = 0;          ///< paths: most events of one
   std::uint64_t cut = 0;              ///< march: rays that were not walked to their end
 };
 

@@ -36,7 +36,7 @@ public:
   Session(const gpu::Device& device, const scene::Scene& scene, const gpu_scene::VolumeSet& volumes,
           Estimator& estimator, const RenderOptions& options, RenderReport& report)
       : scene_(scene), options_(options), report_(report), estimator_(&estimator), device_(device.info().name),
-        film_(startFilm(device)), coverage_(mediaCoverage(scene, volumes)), order_(dispatchOrder(film_.window())) {
+        film_(startFilm(device)), coverage_(sceneCoverage(scene, volumes)), order_(dispatchOrder(film_.window())) {
     estimator_->resetTotals();
     report_.mediaPixels = static_cast<std::size_t>(
         std::count_if(order_.begin(), order_.end(), [&](std::uint32_t pixel) { return covered(pixel); }));

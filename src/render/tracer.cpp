@@ -35,6 +35,7 @@ passes::TraceSpec traceSpecFor(const gpu_scene::Features& features, const Estima
   spec.kBackground = features.background;
   spec.kAovs = options.aovs;
   spec.kWeighted = !features.overlapOfGrids && !options.deltaTracking;
+  spec.kMediumTree = features.mediumTree;
   spec.kPlantedBug = options.plantedBug;
   return spec;
 }

@@ -53,7 +53,7 @@ struct Parsed {
   std::vector<Mistake> mistakes; ///< in text order; those that allow it are collected
 };
 
-/// Deeper nesting than this is a mistake; a scene needs 7 levels.
+/// Deeper nesting than this is a mistake; a scene needs 8 levels.
 inline constexpr int kMaximumDepth = 64;
 /// Keys in one object; no object of a scene has 20.
 inline constexpr std::size_t kMaximumKeys = 1000;

@@ -35,6 +35,8 @@ inline constexpr Range kLight{0.0, kLargestLight};
 inline constexpr Range kFraction{0.0, 1.0};
 inline constexpr Range kExtinction{0.0, kLargestExtinction, "1 / scene unit"};
 inline constexpr Range kPositiveLength{0.0, kLargestLength, "scene units", true};
+inline constexpr Range kIor{1.0, 4.0};
+inline constexpr Range kMetal{0.0, 100.0}; ///< eta and k of metals: below 20 in visible light
 inline constexpr Range kKelvin{0.0, 1e6, "kelvin", true};
 
 /// The range of a phase function's parameter, by its name in phase/list.h.

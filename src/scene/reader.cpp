@@ -21,11 +21,6 @@ bool isWhole(const json::Value& value, const WholeRange& range) {
          value.number >= double(range.min) && value.number <= double(range.max);
 }
 
-/// Already reported as text that cannot be read: nothing more is said about it.
-bool malformed(const json::Value& value) {
-  return value.kind == json::Kind::Invalid || std::any_of(value.items.begin(), value.items.end(), malformed);
-}
-
 /// "\"a\", \"b\" or \"c\"".
 std::string alternatives(std::span<const std::string_view> words) {
   std::string text;
@@ -44,27 +39,6 @@ std::string inWords(const Range& range) {
     return fmt::format("a number above {} and up to {}{}", range.min, range.max, unit);
   }
   return fmt::format("a number from {} to {}{}", range.min, range.max, unit);
-}
-
-Reader::Reader(const json::Value& object, std::string path, ReadContext& context)
-    : object_(object), path_(std::move(path)), context_(context) {}
-
-std::string Reader::pathOf(std::string_view key) const {
-  return path_.empty() ? std::string(key) : fmt::format("{}.{}", path_, key);
-}
-
-const json::Value* Reader::take(std::string_view key) {
-  const bool required = std::exchange(required_, false);
-  asked_.push_back({key, active_ ? Use::Read : Use::DoesNotApply, active_ ? "" : when_});
-  if (!active_) {
-    return nullptr;
-  }
-  const json::Value* value = object_.find(key);
-  if (value == nullptr && required) {
-    context_.findings.error(object_.position, pathOf(key),
-                            fmt::format("is missing; add \"{}\" to the object that starts here", key));
-  }
-  return value != nullptr && !malformed(*value) ? value : nullptr;
 }
 
 void Reader::reject(const json::Value& value, std::string_view key, const std::string& needs) {
@@ -147,6 +121,20 @@ void Reader::whole(std::string_view key, std::uint32_t& target, const WholeRange
     return reject(*value, key, fmt::format("a whole number from {} to {}", range.min, range.max));
   }
   target = static_cast<std::uint32_t>(value->number);
+}
+
+void Reader::whole(std::string_view key, std::optional<std::uint32_t>& target, const WholeRange& range,
+                   std::string_view help) {
+  const json::Value* value = object_.find(key);
+  if (value != nullptr && value->kind == json::Kind::Null) {
+    take(key);
+    return target.reset();
+  }
+  std::uint32_t read = target.value_or(0);
+  whole(key, read, range, help);
+  if (active_ && value != nullptr && isWhole(*value, range)) {
+    target = read;
+  }
 }
 
 void Reader::flag(std::string_view key, bool& target, std::string_view) {
@@ -241,72 +229,6 @@ void Reader::pair(std::string_view key, glm::uvec2& target, const WholeRange& ra
                   fmt::format("two whole numbers from {} to {}, such as [640, 480]", range.min, range.max));
   }
   target = glm::uvec2(items[0].number, items[1].number);
-}
-
-bool Reader::isList(const json::Value& value, const std::string& path) {
-  if (value.kind == json::Kind::Array) {
-    return true;
-  }
-  context_.findings.error(value.position, path, fmt::format("must be a list, [ ... ], not {}", json::inWords(value)));
-  return false;
-}
-
-bool Reader::isObject(const json::Value& value, const std::string& path) {
-  if (value.kind == json::Kind::Object) {
-    return true;
-  }
-  context_.findings.error(value.position, path,
-                          fmt::format("must be an object, {{ ... }}, not {}", json::inWords(value)));
-  return false;
-}
-
-void Reader::finish() {
-  if (abandoned_) {
-    return;
-  }
-  for (const json::Member& member : object_.members) {
-    const bool read = std::any_of(asked_.begin(), asked_.end(), [&](const Asked& asked) {
-      return asked.key == member.key && asked.use == Use::Read;
-    });
-    if (!read) {
-      reportUnused(member);
-    }
-  }
-}
-
-void Reader::reportUnused(const json::Member& member) {
-  std::vector<std::string> known;
-  std::vector<std::string> conditions;
-  for (const Asked& asked : asked_) {
-    if (asked.key == member.key) {
-      conditions.push_back(asked.when);
-    } else if (asked.use == Use::Read) {
-      known.emplace_back(asked.key);
-    }
-  }
-  std::string message;
-  if (!conditions.empty()) {
-    message = fmt::format("has no meaning here, only with {}; remove it or change the type", joinNames(conditions));
-  } else if (const std::string nearest = nearestName(member.key, known); !nearest.empty()) {
-    message = fmt::format("is not a known key; did you mean \"{}\"?", nearest);
-  } else {
-    std::sort(known.begin(), known.end());
-    message = fmt::format("is not a known key; here stand {}", joinNames(known));
-  }
-  context_.findings.error(member.position, pathOf(member.key), message);
-}
-
-void readRoot(const json::Value& root, ReadContext& context, Scene& scene) {
-  if (root.kind != json::Kind::Object) {
-    context.findings.error(root.position, "",
-                           fmt::format("a scene must be an object, {{ ... }}, not {}", json::inWords(root)));
-    return;
-  }
-  Reader reader(root, "", context);
-  std::string schema;
-  reader.text("$schema", schema, "for editors; not used");
-  fields(reader, scene);
-  reader.finish();
 }
 
 } // namespace tyndall::scene

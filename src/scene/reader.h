@@ -59,13 +59,16 @@ public:
   void file(std::string_view key, std::string& target, std::string_view);
   void number(std::string_view key, double& target, const Range& range, std::string_view);
   void whole(std::string_view key, std::uint32_t& target, const WholeRange& range, std::string_view);
+  void whole(std::string_view key, std::optional<std::uint32_t>& target, const WholeRange& range,
+             std::string_view help);
   void flag(std::string_view key, bool& target, std::string_view);
   void point(std::string_view key, glm::dvec3& target, std::string_view);
   void direction(std::string_view key, glm::dvec3& target, std::string_view);
   void triple(std::string_view key, glm::dvec3& target, const Range& range, std::string_view);
   void pair(std::string_view key, glm::uvec2& target, const WholeRange& range, std::string_view);
   void matrix(std::string_view key, glm::dmat4& target, std::string_view);
-  void transform(std::string_view key, glm::dmat4& worldFromMedium, std::string_view);
+  void transform(std::string_view key, glm::dmat4& targetFromSource, std::string_view);
+  void transforms(std::string_view key, std::vector<glm::dmat4>& targetFromSource, std::string_view);
 
   template <class T>
   void object(std::string_view key, T& target, std::string_view) {
@@ -111,6 +114,8 @@ private:
   void reject(const json::Value& value, std::string_view key, const std::string& needs);
   std::optional<std::size_t> chosen(std::string_view key, std::span<const std::string_view> words);
   std::optional<glm::dvec3> three(const json::Value& value, std::string_view key);
+  /// The product of a list of steps, the first one applied first; reports what is wrong with them.
+  glm::dmat4 composed(const json::Value& steps, const std::string& path);
   bool isList(const json::Value& value, const std::string& path);
   bool isObject(const json::Value& value, const std::string& path);
   void reportUnused(const json::Member& member);

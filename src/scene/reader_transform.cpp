@@ -59,39 +59,56 @@ void Reader::matrix(std::string_view key, glm::dmat4& target, std::string_view) 
   target = read;
 }
 
-void Reader::transform(std::string_view key, glm::dmat4& worldFromMedium, std::string_view) {
-  const json::Value* value = take(key);
-  if (value == nullptr || !isList(*value, pathOf(key))) {
-    return;
-  }
-  glm::dmat4 composed(1.0);
-  for (std::size_t i = 0; i < value->items.size(); ++i) {
-    const json::Value& item = value->items[i];
-    const std::string path = fmt::format("{}.{}", pathOf(key), i);
+glm::dmat4 Reader::composed(const json::Value& steps, const std::string& path) {
+  glm::dmat4 product(1.0);
+  for (std::size_t i = 0; i < steps.items.size(); ++i) {
+    const json::Value& item = steps.items[i];
+    const std::string stepPath = fmt::format("{}.{}", path, i);
     TransformStep step;
-    readObject(item, path, step);
-    if (context_.findings.errorIn(path)) {
+    readObject(item, stepPath, step);
+    if (context_.findings.errorIn(stepPath)) {
       continue;
     }
     if (item.members.size() != 1) {
-      context_.findings.error(item.position, path,
+      context_.findings.error(item.position, stepPath,
                               "must have one of translate, rotate, scale or matrix; "
                               "put further steps into objects of their own");
       continue;
     }
-    composed = stepMatrix(step) * composed;
+    product = stepMatrix(step) * product;
     if (relativeDeterminant(stepMatrix(step)) < 1e-12) {
-      context_.findings.error(item.position, path,
+      context_.findings.error(item.position, stepPath,
                               "flattens space (it cannot be inverted); no factor may be 0, and "
                               "the rows of a matrix must be independent");
     }
   }
-  const double size = std::cbrt(std::abs(glm::determinant(glm::dmat3(composed))));
-  if (!context_.findings.errorIn(pathOf(key)) && !(size > 1e-12 && size < 1e12)) {
-    context_.findings.error(value->position, pathOf(key),
+  const double size = std::cbrt(std::abs(glm::determinant(glm::dmat3(product))));
+  if (!context_.findings.errorIn(path) && !(size > 1e-12 && size < 1e12)) {
+    context_.findings.error(steps.position, path,
                             fmt::format("scales by {:.3g} in all; keep it between 1e-12 and 1e12", size));
   }
-  worldFromMedium = composed;
+  return product;
+}
+
+void Reader::transform(std::string_view key, glm::dmat4& targetFromSource, std::string_view) {
+  const json::Value* value = take(key);
+  if (value != nullptr && isList(*value, pathOf(key))) {
+    targetFromSource = composed(*value, pathOf(key));
+  }
+}
+
+void Reader::transforms(std::string_view key, std::vector<glm::dmat4>& targetFromSource, std::string_view) {
+  const json::Value* value = take(key);
+  if (value == nullptr || !isList(*value, pathOf(key))) {
+    return;
+  }
+  targetFromSource.assign(value->items.size(), glm::dmat4(1.0));
+  for (std::size_t i = 0; i < targetFromSource.size(); ++i) {
+    const std::string path = fmt::format("{}.{}", pathOf(key), i);
+    if (isList(value->items[i], path)) {
+      targetFromSource[i] = composed(value->items[i], path);
+    }
+  }
 }
 
 } // namespace tyndall::scene

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "geometry/model.h"
 #include "math/bounds.h"
 #include "phase/list.h"
 
@@ -26,6 +27,8 @@ struct Camera {
   glm::dvec3 up{0.0, 1.0, 0.0};
   double verticalFov = 40.0;     ///< degrees, full angle (perspective)
   double height = 2.0;           ///< scene units seen from top to bottom (orthographic)
+  double lensRadius = 0.0;    ///< scene units; 0 = a pinhole (perspective)
+  double focusDistance = 1.0; ///< scene units from the lens to the plane in focus, along the view direction
 };
 
 enum class View { Standard, Filmic };
@@ -42,7 +45,8 @@ struct Phase {
   std::array<double, 4> parameters{};  ///< in the order of phase/list.h
 };
 
-enum class MediumShape { Unbounded, Box, Sphere };
+/// Objects: inside the closed objects that name the medium.
+enum class MediumShape { Unbounded, Box, Sphere, Objects };
 
 /// Emission coefficient j in W/(m3 sr) per unit scale.
 struct Emission {
@@ -61,7 +65,9 @@ struct Emission {
 struct Medium {
   std::string name;
   glm::dmat4 worldFromMedium{1.0};
+  std::vector<glm::dmat4> instances; ///< worldFromWorld of each copy, after worldFromMedium; empty: one, as it is
   glm::dvec3 albedo{1.0};              ///< sigma_s / sigma_t, in [0, 1]
+  glm::dvec3 extinctionColour{1.0};  ///< factors of the extinction per channel, [0, 1]
   Phase phase;
   std::optional<Emission> emission;
 
@@ -88,6 +94,15 @@ struct PointLight {
   glm::dvec3 intensity{1.0};           ///< W / sr
 };
 
+/// Shines within a cone; between the inner and the outer angle it falls off smoothly.
+struct SpotLight {
+  glm::dvec3 position{0.0};
+  glm::dvec3 direction{0.0, -1.0, 0.0};  ///< the way its light travels; unit length once loaded
+  glm::dvec3 intensity{1.0};            ///< W / sr along the axis
+  double outerAngle = 30.0;             ///< degrees, half angle
+  double innerAngle = 20.0;             ///< degrees, half angle, at most the outer one
+};
+
 struct SunLight {
   glm::dvec3 direction{0.0, -1.0, 0.0};  ///< the way its light travels; unit length once loaded
   glm::dvec3 irradiance{1.0};            ///< W / m2 on a plane perpendicular to it
@@ -112,7 +127,7 @@ struct SkyEnvironment {
   double scale = 1.0;                      ///< 1: the sun above the atmosphere has irradiance 1 W/m2 per channel
 };
 
-using Light = std::variant<PointLight, SunLight, ConstantEnvironment, MapEnvironment, SkyEnvironment>;
+using Light = std::variant<PointLight, SunLight, ConstantEnvironment, MapEnvironment, SkyEnvironment, SpotLight>;
 
 struct NamedLight {
   std::string name;
@@ -123,7 +138,28 @@ struct NamedLight {
 struct RenderSettings {
   std::uint32_t samples = 64;          ///< per pixel
   std::uint32_t seed = 0;
-  std::uint32_t depth = 1;             ///< scattering events
+  std::optional<std::uint32_t> depth; ///< scattering events, 0 = unlimited; empty: 1 without objects, else unlimited
+};
+
+/// A surface, or several. Its triangles have their file's materials unless `material` names one of the scene's.
+struct Object {
+  enum class Kind { Mesh, Quad, Box, Sphere };
+  std::string name;
+  Kind kind = Kind::Mesh;
+  glm::dmat4 worldFromObject{1.0};
+  std::vector<glm::dmat4> instances; ///< worldFromWorld of each copy, after worldFromObject; empty: one, as it is
+  std::string material;              ///< name in Scene::materials; empty: the file's own, or white diffuse
+  std::string medium;                ///< name of the homogeneous medium inside; empty: none
+  std::uint32_t priority = 0;        ///< where refracting objects overlap, the highest decides
+  bool lights = true;                ///< mesh: take the file's punctual lights too
+
+  std::string file;                  ///< mesh
+  glm::dvec3 origin{-1.0, 0.0, 1.0}; ///< quad: a corner
+  glm::dvec3 edgeU{2.0, 0.0, 0.0};   ///< quad: its front is the side of cross(edgeU, edgeV)
+  glm::dvec3 edgeV{0.0, 0.0, -2.0};
+  Bounds3 box;            ///< box: object space; faces outwards
+  glm::dvec3 centre{0.0}; ///< sphere
+  double radius = 1.0;
 };
 
 struct Scene {
@@ -133,6 +169,11 @@ struct Scene {
   RenderSettings render;
   std::vector<Medium> media;
   std::vector<NamedLight> lights;
+  std::vector<geometry::Material> materials; ///< unique names; no textures
+  std::vector<Object> objects;
+
+  /// Scattering events at most, 0 = unlimited.
+  std::uint32_t depth() const { return render.depth.value_or(objects.empty() ? 1 : 0); }
 };
 
 } // namespace tyndall::scene

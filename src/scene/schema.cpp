@@ -56,6 +56,9 @@ public:
   void whole(std::string_view key, std::uint32_t& target, const WholeRange& range, std::string_view help) {
     add(key, withDefault(wholeIn(range), target), help);
   }
+  void whole(std::string_view key, std::optional<std::uint32_t>&, const WholeRange& range, std::string_view help) {
+    add(key, {{"anyOf", Json::array({{{"type", "null"}}, wholeIn(range)})}, {"default", nullptr}}, help);
+  }
   void flag(std::string_view key, bool& target, std::string_view help) {
     add(key, withDefault({{"type", "boolean"}}, target), help);
   }
@@ -76,12 +79,9 @@ public:
   void matrix(std::string_view key, glm::dmat4&, std::string_view help) {
     add(key, listOf(numberIn({-kLargestLength, kLargestLength}), 16), help);
   }
-  void transform(std::string_view key, glm::dmat4&, std::string_view help) {
-    TransformStep step;
-    Json schema = objectSchema(step);
-    schema["minProperties"] = 1;
-    schema["maxProperties"] = 1;
-    add(key, {{"type", "array"}, {"items", schema}}, help);
+  void transform(std::string_view key, glm::dmat4&, std::string_view help) { add(key, stepList(), help); }
+  void transforms(std::string_view key, std::vector<glm::dmat4>&, std::string_view help) {
+    add(key, {{"type", "array"}, {"items", stepList()}}, help);
   }
   template <class T>
   void object(std::string_view key, T& target, std::string_view help) {
@@ -125,6 +125,13 @@ private:
   }
   static Json listOf(const Json& item, int count) {
     return {{"type", "array"}, {"items", item}, {"minItems", count}, {"maxItems", count}};
+  }
+  static Json stepList() {
+    TransformStep step;
+    Json schema = objectSchema(step);
+    schema["minProperties"] = 1;
+    schema["maxProperties"] = 1;
+    return {{"type", "array"}, {"items", schema}};
   }
   static std::string helpWith(const Range& range, std::string_view help) {
     return range.unit.empty() ? std::string(help) : std::string(range.unit) + ": " + std::string(help);

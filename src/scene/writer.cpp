@@ -22,6 +22,11 @@ std::string matrixText(const glm::dmat4& matrix) {
   return text + "]";
 }
 
+std::string transformText(const glm::dmat4& targetFromSource) {
+  const bool identity = targetFromSource == glm::dmat4(1.0);
+  return identity ? "[]" : "[{\"matrix\": " + matrixText(targetFromSource) + "}]";
+}
+
 } // namespace
 
 Writer::Writer(std::string& out, std::size_t indent, std::optional<std::filesystem::path> folder)
@@ -53,6 +58,10 @@ void Writer::whole(std::string_view key, std::uint32_t& target, const WholeRange
   put(key, fmt::format("{}", target));
 }
 
+void Writer::whole(std::string_view key, std::optional<std::uint32_t>& target, const WholeRange&, std::string_view) {
+  put(key, target ? fmt::format("{}", *target) : "null");
+}
+
 void Writer::point(std::string_view key, glm::dvec3& target, std::string_view) {
   put(key, fmt::format("[{}, {}, {}]", shortest(target.x), shortest(target.y), shortest(target.z)));
 }
@@ -63,9 +72,17 @@ void Writer::pair(std::string_view key, glm::uvec2& target, const WholeRange&, s
 
 void Writer::matrix(std::string_view key, glm::dmat4& target, std::string_view) { put(key, matrixText(target)); }
 
-void Writer::transform(std::string_view key, glm::dmat4& worldFromMedium, std::string_view) {
-  const bool identity = worldFromMedium == glm::dmat4(1.0);
-  put(key, identity ? "[]" : "[{\"matrix\": " + matrixText(worldFromMedium) + "}]");
+void Writer::transform(std::string_view key, glm::dmat4& targetFromSource, std::string_view) {
+  put(key, transformText(targetFromSource));
+}
+
+void Writer::transforms(std::string_view key, std::vector<glm::dmat4>& targetFromSource, std::string_view) {
+  std::string text = "[";
+  for (const glm::dmat4& matrix : targetFromSource) {
+    text += &matrix == targetFromSource.data() ? "\n" : ",\n";
+    text += std::string(indent_ + 4, ' ') + transformText(matrix);
+  }
+  put(key, text + (targetFromSource.empty() ? "]" : "\n" + std::string(indent_ + 2, ' ') + "]"));
 }
 
 void Writer::finish() { out_ += empty_ ? "}" : "\n" + std::string(indent_, ' ') + "}"; }

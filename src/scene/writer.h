@@ -41,6 +41,7 @@ public:
   void file(std::string_view key, std::string& target, std::string_view);
   void number(std::string_view key, double& target, const Range&, std::string_view);
   void whole(std::string_view key, std::uint32_t& target, const WholeRange&, std::string_view);
+  void whole(std::string_view key, std::optional<std::uint32_t>& target, const WholeRange&, std::string_view);
   void flag(std::string_view key, bool& target, std::string_view) { put(key, target ? "true" : "false"); }
   void point(std::string_view key, glm::dvec3& target, std::string_view);
   void direction(std::string_view key, glm::dvec3& target, std::string_view help) { point(key, target, help); }
@@ -49,7 +50,8 @@ public:
   }
   void pair(std::string_view key, glm::uvec2& target, const WholeRange&, std::string_view);
   void matrix(std::string_view key, glm::dmat4& target, std::string_view);
-  void transform(std::string_view key, glm::dmat4& worldFromMedium, std::string_view);
+  void transform(std::string_view key, glm::dmat4& targetFromSource, std::string_view);
+  void transforms(std::string_view key, std::vector<glm::dmat4>& targetFromSource, std::string_view);
 
   template <class T>
   void object(std::string_view key, T& target, std::string_view) {

@@ -48,7 +48,7 @@ Misses missesOf(const TestScene& test, const std::vector<bool>& mask, MomentOpti
 }
 
 void expectConservative(const TestScene& test, std::size_t leastUnmarked, const std::string& name) {
-  const std::vector<bool> mask = render::mediaCoverage(test.scene, test.volumes);
+  const std::vector<bool> mask = render::sceneCoverage(test.scene, test.volumes);
   for (const MomentOptions& options : eachMethod()) {
     const Misses misses = missesOf(test, mask, options);
     EXPECT_EQ(misses.wrong, 0u) << name << nameOf(options);
@@ -91,7 +91,7 @@ TEST(Coverage, IsConservativeFromInsideBesideAndBehind) {
 TEST(Coverage, OneMissingPixelIsSeen) {
   TestScene test = baseScene();
   test.grid(islands(glm::dmat4(1.0)));
-  std::vector<bool> mask = render::mediaCoverage(test.scene, test.volumes);
+  std::vector<bool> mask = render::sceneCoverage(test.scene, test.volumes);
   const Moments moments = renderMoments(test.scene, test.volumes, {.replicates = 2});
   std::size_t seen = 0;
   while (moments.mean(seen, kTransmittance) > 0.9) {

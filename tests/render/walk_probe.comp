@@ -9,6 +9,7 @@
 #define SPEC(type, name, id, value) layout(constant_id = id) const type name = value;
 TYNDALL_TRACE_SPEC(SPEC)
 #undef SPEC
+const bool kChromatic = false;
 
 #include "tracker/walk.glsl"
 

@@ -95,7 +95,24 @@ TEST(SceneDamage, EveryValueOfEveryWrongKindIsReported) {
                                        "lights.0.position",
                                        "lights.1.direction",
                                        "lights.1.visible",
-                                       "lights.4.turbidity"};
+                                       "lights.4.turbidity",
+                                       "lights.5.inner_angle",
+                                       "camera.lens_radius",
+                                       "render.depth",
+                                       "media.0.instances.1.0",
+                                       "media.0.extinction_colour",
+                                       "materials.0",
+                                       "materials.1.type",
+                                       "materials.1.emission",
+                                       "materials.1.two_sided",
+                                       "objects.0",
+                                       "objects.0.file",
+                                       "objects.0.instances",
+                                       "objects.1.edge_u",
+                                       "objects.1.material",
+                                       "objects.2.medium",
+                                       "objects.2.priority",
+                                       "objects.3.radius"};
   for (const std::string& path : paths) {
     int refused = 0;
     for (const std::string& replacement : replacements) {

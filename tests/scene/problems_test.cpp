@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every kind of mistake is found where it stands. In the texts below, @ marks where the problem must be reported; it
-// is taken out before parsing.
-#include "scene/support.h"
+// Every kind of mistake is found where it stands. In the texts below, @ marks where the problem must be reported.
+#include "scene/marked.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,33 +10,10 @@
 namespace tyndall::scene {
 namespace {
 
+using test::expectOne;
 using test::listed;
+using test::Malformed;
 using test::parse;
-
-struct Malformed {
-  const char* text;
-  const char* message; ///< must be part of the message
-  bool warning = false;
-};
-
-/// The text without its mark, and where the mark was, counted in characters.
-struct Marked {
-  std::string text;
-  int line = 1;
-  int column = 1;
-};
-
-Marked unmark(std::string text) {
-  Marked marked;
-  const std::size_t at = text.find('@');
-  for (std::size_t i = 0; i < at; ++i) {
-    const bool newLine = text[i] == '\n';
-    marked.line += newLine ? 1 : 0;
-    marked.column = newLine ? 1 : marked.column + ((text[i] & 0xc0) == 0x80 ? 0 : 1);
-  }
-  marked.text = text.erase(at, 1);
-  return marked;
-}
 
 constexpr const char* kMedia = R"("media": [{"type": "homogeneous", "extinction": 1}], )";
 constexpr const char* kLights = R"("lights": [{"type": "point"}])";
@@ -52,21 +28,6 @@ std::string inMedium(const std::string& member) {
 std::string inLight(const std::string& member) {
   return "{\"media\": [{\"type\": \"homogeneous\", \"shape\": {\"type\": \"sphere\"}}],\n \"lights\": [\n  {" + member +
          "}]}";
-}
-
-void expectOne(const std::string& markedText, const std::string& message, bool warning) {
-  ASSERT_EQ(std::count(markedText.begin(), markedText.end(), '@'), 1) << markedText;
-  const Marked marked = unmark(markedText);
-  const LoadResult result = parse(marked.text);
-  ASSERT_EQ(result.problems.size(), 1u) << marked.text << '\n' << listed(result);
-  const Problem& problem = result.problems.front();
-  EXPECT_EQ(problem.location.file, "test.json");
-  EXPECT_EQ(problem.location.line, marked.line) << marked.text << '\n' << problem.message;
-  EXPECT_EQ(problem.location.column, marked.column) << marked.text << '\n' << problem.message;
-  EXPECT_THAT(problem.message, testing::HasSubstr(message)) << marked.text;
-  EXPECT_EQ(problem.warning, warning);
-  EXPECT_EQ(result.ok(), warning);
-  EXPECT_EQ(result.canonical.empty(), !warning);
 }
 
 TEST(SceneProblems, TheFramesAroundTheCasesAreSound) {
@@ -156,6 +117,10 @@ TEST(SceneProblems, ValuesThatDoNotFit) {
       {R"("camera": {"up": @[0, 0, 0]})", "camera.up: is zero"},
       {R"("camera": {"vertical_fov": @0})", "must be a number above 0 and up to 179 (degrees), not 0"},
       {R"("camera": {"vertical_fov": @180})", "must be a number above 0 and up to 179"},
+      {R"("camera": {"lens_radius": @-1, "focus_distance": 1})", "from 0 to 1000000000 (scene units)"},
+      {R"("camera": @{"lens_radius": 0.1})", "camera.focus_distance: is missing"},
+      {R"("camera": {"focus_distance": @0})", "must be a number above 0"},
+      {R"("camera": {"type": "orthographic", @"lens_radius": 1})", "only with type \"perspective\""},
       {R"("camera": {@"height": 1})", "has no meaning here, only with type \"orthographic\""},
       {R"("camera": {"type": "orthographic", "height": @-1})", "must be a number above 0"},
       {R"("film": {"size": @[0, 480]})", "film.size: must be two whole numbers from 1 to 65536"},
@@ -168,7 +133,8 @@ TEST(SceneProblems, ValuesThatDoNotFit) {
       {R"("render": {"samples": @0})", "must be a whole number from 1 to"},
       {R"("render": {"seed": @-1})", "must be a whole number from 0 to 4294967295"},
       {R"("render": {"seed": @4294967296})", "must be a whole number from 0 to 4294967295"},
-      {R"("render": {"depth": @8})", "is 8, but this version renders one scattering event; set it to 1"},
+      {R"("render": {"depth": @65537})", "must be a whole number from 0 to 65536"},
+      {R"("render": {"depth": @-1})", "must be a whole number from 0 to 65536"},
       {R"("name": @5)", "name: must be text in double quotes, not 5"},
   };
   for (const Malformed& malformed : cases) {
@@ -184,6 +150,8 @@ TEST(SceneProblems, Media) {
       {R"("type": "homogeneous", "albedo": [0, 0, @-0.1])", "media.0.albedo.2: must be a number from 0 to 1"},
       {R"("type": "homogeneous", "albedo": @[1, 1])", "or a list of three, not a list of 2"},
       {R"("type": "homogeneous", @"file": "smoke.vdb")", "has no meaning here, only with type \"grid\""},
+      {R"("type": "homogeneous", "extinction_colour": [1, @1.5, 0])",
+       "extinction_colour.1: must be a number from 0 to 1"},
       {R"("type": "homogeneous", "phase": @{})", "media.0.phase.type: is missing"},
       {R"("type": "homogeneous", "phase": {"type": @"heyney-greenstein"})", "did you mean \"henyey-greenstein\"?"},
       {R"("type": "homogeneous", "phase": @{"type": "henyey-greenstein"})", "media.0.phase.g: is missing"},
@@ -206,10 +174,16 @@ TEST(SceneProblems, Media) {
       {R"("type": "homogeneous", "transform": [{"matrix": @[1, 2, 3]}])", "must be 16 numbers"},
       {R"("type": "homogeneous", "transform": @[{"scale": 1e9}, {"scale": 1e9}])", "keep it between"},
       {R"("type": "homogeneous", "transform": [{"rotate": @{"axis": [0, 0, 1]}}])", "rotate.degrees: is missing"},
+      {R"("type": "homogeneous", "instances": @[[]])", "copies a medium that fills all space already"},
+      {R"("type": "grid", "file": "smoke.vdb", "instances": @{})", "instances: must be a list, [ ... ]"},
+      {R"("type": "grid", "file": "smoke.vdb", "instances": [@{"scale": 2}])", "instances.0: must be a list"},
+      {R"("type": "grid", "file": "smoke.vdb", "instances": [[], [@{"scale": 0}]])", "instances.1.0: flattens space"},
       {R"("type": "homogeneous", "emission": {"type": "linear", @"grid": "flame"})",
        "only with a medium of type \"grid\""},
       {R"("type": "homogeneous", "emission": @{"type": "blackbody"})", "emission.temperature: is missing"},
       {R"("type": "homogeneous", "extinction": 0, "emission": @{"type": "linear"})", "shines from infinitely far"},
+      {R"("type": "homogeneous", "extinction_colour": [1, 0, 1], "emission": @{"type": "linear"})",
+       "an extinction above 0 in every channel"},
       {R"("type": "grid", "file": @"smok.vdb")", "did you mean \"smoke.vdb\"?"},
       {R"("type": "grid", "file": @"nowhere/smoke.vdb")", "there is no folder"},
       {R"("type": "grid", "file": @".")", "is not a file"},
@@ -227,12 +201,17 @@ TEST(SceneProblems, Media) {
 
 TEST(SceneProblems, Lights) {
   const std::vector<Malformed> cases{
-      {R"("type": @"spot")", "must be \"point\", \"sun\", \"constant\", \"map\" or \"sky\""},
+      {R"("type": @"spto")", "must be \"point\", \"sun\", \"constant\", \"map\", \"sky\" or \"spot\""},
+      {R"("type": "spot", "outer_angle": @0)", "must be a number above 0 and up to 90 (degrees)"},
+      {R"("type": "spot", "outer_angle": 10, "inner_angle": @10.5)", "is 10.5, beyond the outer_angle of 10"},
+      {R"("type": "spot", "inner_angle": @91)", "must be a number above 0 and up to 90 (degrees)"},
+      {R"("type": "spot", "direction": @[0, 0, 0])", "lights.0.direction: is zero"},
+      {R"("type": "spot", @"visible": true)", "only with every type but \"point\" and \"spot\""},
       {R"("type": "sun", "direction": @[0, 0, 0])", "lights.0.direction: is zero"},
       {R"("type": "sun", "irradiance": @-1)", "must be a number from 0 to"},
-      {R"("type": "sun", @"intensity": 1)", "only with type \"point\""},
+      {R"("type": "sun", @"intensity": 1)", "only with type \"point\" and type \"spot\""},
       {R"("type": "sun", "angular_diameter": @91)", "from 0 to 90 (degrees)"},
-      {R"("type": "point", @"visible": true)", "only with every type but \"point\""},
+      {R"("type": "point", @"visible": true)", "only with every type but \"point\" and"},
       {R"("type": "point", @"intensty": 1)", "did you mean \"intensity\"?"},
       {R"("type": "map", "file": @"sky.hdr")", "did you mean \"sky.exr\"?"},
       {R"("type": "sky", "turbidity": @0.5)", "from 1 to 10"},
@@ -262,7 +241,7 @@ TEST(SceneProblems, WholeScenes) {
 TEST(SceneProblems, AllAreCollectedInFileOrder) {
   const LoadResult result = parse("{\"film\": {\"size\": 3, \"exposre\": 1},\n"
                                   " \"camera\": {\"up\": [0, 0, 1]},\n"
-                                  " \"render\": {\"samples\": 0, \"depth\": 2},\n"
+                                  " \"render\": {\"samples\": 0, \"depth\": -2},\n"
                                   " \"media\": [{\"type\": \"homogeneous\", \"albedo\": 2}],\n"
                                   " \"lights\": [{\"type\": \"sun\"}]}");
   std::vector<std::pair<int, int>> places;

@@ -29,7 +29,7 @@ TEST(SceneValues, ArriveInTheirUnits) {
   EXPECT_EQ(scene.film.view, View::Filmic);
   EXPECT_TRUE(scene.film.transparent);
   EXPECT_EQ(scene.render.seed, 4294967295u);
-  ASSERT_EQ(scene.media.size(), 6u);
+  ASSERT_EQ(scene.media.size(), 7u);
   const Medium& smoke = scene.media[0];
   EXPECT_EQ(smoke.file, (test::folder() / "smoke.vdb").string());
   EXPECT_EQ(smoke.clip->max, glm::dvec3(1, 2, 3));
@@ -128,8 +128,8 @@ TEST(SceneOverrides, ChangeWhatTheyName) {
                                                  {"lights.1.visible", "true"},
                                                  {"film.view", "standard"},
                                                  {"name", "\"quoted\""},
-                                                 {"media.5.emission.type", "linear"},
-                                                 {"media.5.extinction", "1"},
+                                                 {"media.6.emission.type", "linear"},
+                                                 {"media.6.extinction", "1"},
                                                  {"lights", R"([{"type": "point"}])"}});
   ASSERT_TRUE(result.ok()) << listed(result);
   EXPECT_EQ(result.scene.film.size, glm::uvec2(32, 24));
@@ -137,7 +137,7 @@ TEST(SceneOverrides, ChangeWhatTheyName) {
   EXPECT_EQ(result.scene.media[2].albedo, glm::dvec3(0.25));
   EXPECT_EQ(result.scene.film.view, View::Standard);
   EXPECT_EQ(result.scene.name, "quoted");
-  EXPECT_TRUE(result.scene.media[5].emission.has_value()) << "objects on the way are made";
+  EXPECT_TRUE(result.scene.media[6].emission.has_value()) << "objects on the way are made";
   EXPECT_EQ(result.scene.lights.size(), 1u);
 }
 

@@ -129,17 +129,17 @@ TEST(SceneSchema, AcceptsWhatTheReaderAccepts) {
 
 TEST(SceneSchema, RefusesWhatTheReaderRefuses) {
   const json schema = json::parse(jsonSchema());
-  const std::vector<Override> broken{{"film.size", "[0, 1]"},
-                                     {"film.exposur", "1"},
-                                     {"film.view", "\"warm\""},
-                                     {"camera.vertical_fov", "0"},
-                                     {"media.0.albedo", "1.5"},
-                                     {"media.0.phase.weight", "-1"},
-                                     {"media.0.phase", "{}"},
-                                     {"media.0.storage", "\"x\""},
-                                     {"lights.0.position", "[1, 2]"},
-                                     {"lights.4.turbidity", "11"},
-                                     {"media", "{}"},
+  const std::vector<Override> broken{{"film.size", "[0, 1]"},           {"film.exposur", "1"},
+                                     {"film.view", "\"warm\""},         {"camera.vertical_fov", "0"},
+                                     {"media.0.albedo", "1.5"},         {"media.0.phase.weight", "-1"},
+                                     {"media.0.phase", "{}"},           {"media.0.storage", "\"x\""},
+                                     {"lights.0.position", "[1, 2]"},   {"lights.4.turbidity", "11"},
+                                     {"lights.5.outer_angle", "0"},     {"render.depth", "-1"},
+                                     {"camera.lens_radius", "-1"},      {"media.0.extinction_colour", "2"},
+                                     {"media.0.instances.1.0.scale", "[1, 2]"},     {"materials.1.roughness", "1.5"},
+                                     {"materials.0.name", "5"},         {"materials.3.ior", "0.5"},
+                                     {"objects.0.instances.0", "[5]"}, {"objects.0.type", "\"torus\""},
+                                     {"objects.3.radius", "0"},         {"media", "{}"},
                                      {"render.samples", "1.5"}};
   for (const Override& change : broken) {
     std::string pointer = "/" + change.path;
@@ -171,6 +171,8 @@ TEST(SceneFormatPage, NamesEveryKeyAndEveryWord) {
   words(kEmissionTypes);
   words(kMediumTypes);
   words(kLightTypes);
+  words(kMaterialTypes);
+  words(kObjectTypes);
   words(kPhaseTypes);
   for (const std::string_view storage : kStorages) {
     EXPECT_THAT(page, testing::HasSubstr("`\"" + std::string(storage) + "\"`"));

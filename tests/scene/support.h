@@ -11,12 +11,13 @@
 
 namespace tyndall::scene::test {
 
-/// A folder of its own with an empty smoke.vdb and sky.exr in it: loading checks that files exist, not what they hold.
+/// A folder of its own with an empty smoke.vdb, sky.exr and room.glb in it: loading checks that files exist, not what
+/// they hold.
 class Folder {
 public:
   Folder() : path_(std::filesystem::temp_directory_path() / ("tyndall-scene-" + std::to_string(::getpid()))) {
     std::filesystem::create_directories(path_);
-    for (const char* name : {"smoke.vdb", "sky.exr"}) {
+    for (const char* name : {"smoke.vdb", "sky.exr", "room.glb"}) {
       std::ofstream(path_ / name).put('\n');
     }
   }
@@ -56,15 +57,17 @@ inline const std::string& everything() {
   "$schema": "../docs/scene.schema.json",
   "name": "everything, \"quoted\" \u00e9\ud83d\ude00",
   "camera": {"type": "perspective", "position": [1.5, 2, 1e1], "target": [0, 0.1, 0], "up": [0, 2, 0],
-             "vertical_fov": 37.5},
+             "vertical_fov": 37.5, "lens_radius": 0.0625, "focus_distance": 9.75},
   "film": {"size": [321, 240], "exposure": -1.25, "view": "filmic", "transparent": true},
-  "render": {"samples": 128, "seed": 4294967295, "depth": 1},
+  "render": {"samples": 128, "seed": 4294967295, "depth": 12},
   "media": [
     {"name": "smoke", "type": "grid", "file": "smoke.vdb", "grid": "density", "density_scale": 0.1,
      "clip": {"min": [-1, -2, -3], "max": [1, 2, 3]}, "storage": "half", "background": true,
      "transform": [{"rotate": {"axis": [1, 2, 3], "degrees": 33.3}}, {"scale": 0.1}, {"translate": [1, 2, 3]},
                    {"matrix": [1, 0.5, 0, 4,  0, 1, 0, 5,  0, 0, 1, 6,  0, 0, 0, 1]}],
-     "albedo": [0.1, 0.2, 0.3], "phase": {"type": "two-lobe", "g1": 0.7, "g2": -0.2, "weight": 0.6},
+     "instances": [[], [{"translate": [4, 0, 0]}, {"scale": 0.5}, {"rotate": {"axis": [0, 1, 0], "degrees": 45}}]],
+     "albedo": [0.1, 0.2, 0.3], "extinction_colour": [1, 0.5, 0.25],
+     "phase": {"type": "two-lobe", "g1": 0.7, "g2": -0.2, "weight": 0.6},
      "emission": {"type": "blackbody", "grid": "temperature", "colour": [1, 0.5, 0.25], "scale": 1e-3,
                   "temperature_scale": 1000, "temperature_offset": 273.15, "temperature_auto": true,
                   "tied_to_absorption": true}},
@@ -76,6 +79,7 @@ inline const std::string& everything() {
     {"name": "ball", "type": "homogeneous", "extinction": 1e8, "phase": {"type": "mie", "diameter": 5},
      "shape": {"type": "sphere", "centre": [1, 2, 3], "radius": 0.25}, "emission": {"type": "linear"}},
     {"name": "air", "type": "homogeneous", "extinction": 0, "phase": {"type": "rayleigh"}, "shape": {"type": "unbounded"}},
+    {"name": "tea", "type": "homogeneous", "extinction": 3, "shape": {"type": "objects"}},
     {"type": "homogeneous", "extinction": 0.0, "phase": {"type": "henyey-greenstein", "g": -0.9999}}
   ],
   "lights": [
@@ -85,7 +89,26 @@ inline const std::string& everything() {
     {"name": "white", "type": "constant", "radiance": 0.5, "visible": false},
     {"name": "map", "type": "map", "file": "sky.exr", "scale": 2, "rotation": -30},
     {"name": "sky", "type": "sky", "sun_direction": [0.1, -0.7, 0.2], "turbidity": 4.5, "ground_albedo": [0, 0.5, 1],
-     "scale": 20}
+     "scale": 20},
+    {"name": "beam", "type": "spot", "position": [3, 2, 1], "direction": [0, 0, -4], "intensity": [5, 6, 7],
+     "outer_angle": 15, "inner_angle": 12.5}
+  ],
+  "materials": [
+    {"name": "nothing", "type": "null"},
+    {"name": "wall", "type": "diffuse", "colour": [0.7, 0.6, 0.5], "opacity": 0.75, "emission": [10, 20, 30],
+     "two_sided": true},
+    {"name": "gold", "type": "conductor", "roughness": 0.3, "eta": [0.14, 0.37, 1.44], "k": [3.98, 2.38, 1.6]},
+    {"name": "glass", "type": "dielectric", "ior": 1.33, "roughness": 0.05},
+    {"name": "paint", "type": "metal_rough", "colour": 0.2, "metallic": 0.6, "roughness": 0.4, "ior": 1.6}
+  ],
+  "objects": [
+    {"name": "room", "type": "mesh", "file": "room.glb", "lights": false,
+     "transform": [{"scale": [1, 2, 3]}, {"translate": [1, 0, 0]}, {"rotate": {"axis": [0, 0, 1], "degrees": 180}}],
+     "instances": [[{"translate": [1, 0, 0]}], [{"rotate": {"axis": [0, 1, 0], "degrees": 9}}, {"scale": 2}]]},
+    {"name": "lamp", "type": "quad", "material": "wall", "origin": [1, 2, 3], "edge_u": [0, 1, 0], "edge_v": [0, 0, 1]},
+    {"name": "cup", "type": "box", "min": [-1, -2, -3], "max": [1, 2, 3], "material": "glass", "medium": "tea",
+     "priority": 7},
+    {"name": "ball", "type": "sphere", "centre": [0.5, 0.25, 0], "radius": 0.125, "material": "gold"}
   ]
 }
 )";

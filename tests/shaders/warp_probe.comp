@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// Samples of core/warp.glsl: sphere (kShape 0), cone about `axis` (1), disc (2); outputs (point, pdf).
+// Samples of core/warp.glsl: sphere (kShape 0), cone about `axis` (1), disc (2), hemisphere by cosine (3); outputs (point, pdf).
 #extension GL_GOOGLE_include_directive : require
 #include "core/rng.glsl"
 #include "core/warp.glsl"
@@ -30,5 +30,10 @@ void main() {
   case 0u: outputs.at[i] = vec4(uniformSphereSample(xi), uniformSpherePdf()); break;
   case 1u: outputs.at[i] = vec4(uniformConeSample(axis, oneMinusCosMax, xi), uniformConePdf(oneMinusCosMax)); break;
   case 2u: outputs.at[i] = vec4(uniformDiscSample(xi), 0.0, uniformDiscPdf()); break;
+  case 3u: {
+    const vec3 w = cosineHemisphereSample(xi);
+    outputs.at[i] = vec4(w, cosineHemispherePdf(w.z));
+    break;
+  }
   }
 }

@@ -14,7 +14,7 @@
 namespace tyndall::test {
 namespace {
 
-enum Shape : std::uint32_t { Sphere, Cone, Disc };
+enum Shape : std::uint32_t { Sphere, Cone, Disc, Cosine };
 constexpr std::uint32_t kCount = 1u << 18;
 
 std::vector<glm::vec4> sampled(Shape shape, const glm::vec3& axis, double oneMinusCosMax, bool planted) {
@@ -106,6 +106,20 @@ double discPValue(bool planted) {
 TEST(Warp, DiscIsUniform) {
   EXPECT_GT(discPValue(false), kMinPValue);
   EXPECT_LT(discPValue(true), kMinPValue);
+}
+
+double cosinePValue(bool planted) {
+  const auto density = [](double oneMinusCos, double onePlusCos) { return std::max(0.0, 0.5 * (onePlusCos - oneMinusCos)) / std::numbers::pi; };
+  return SphereBins(density, 64, 16).pValue({0.0, 0.0, 1.0}, directions(sampled(Cosine, glm::vec3(0.0f), 1.0, planted)));
+}
+
+TEST(Warp, HemisphereFollowsTheCosine) {
+  EXPECT_GT(cosinePValue(false), kMinPValue);
+  EXPECT_LT(cosinePValue(true), kMinPValue);
+  for (const glm::vec4& sample : sampled(Cosine, glm::vec3(0.0f), 1.0, false)) {
+    ASSERT_NEAR(glm::length(glm::dvec3(sample)), 1.0, 1e-6);
+    ASSERT_FLOAT_EQ(sample.w, sample.z / static_cast<float>(std::numbers::pi));
+  }
 }
 
 } // namespace

@@ -12,7 +12,7 @@
 
 #include "core/equiangular.glsl"
 #include "light/lights.glsl"
-#include "medium/emission.glsl"
+#include "medium/grid_emission.glsl"
 #include "phase/planted.glsl"
 #include "tracker/walk.glsl"
 
@@ -145,24 +145,6 @@ void homogeneousVertex(inout TraceState path, ScenePtr scene, uint technique, in
     walkSegment(path, scene, path.cameraOrigin, path.cameraDirection, path.vertexT, kWalkTransmit);
     path.stage = kStageTransmit;
   }
-}
-
-// Emission of a grid medium at a centred world point. All 8 taps first, then Planck: it is not linear.
-vec3 gridEmission(ScenePtr scene, uint mediumIndex, vec3 point, inout Rng rng) {
-  MediumPtr media = scene.at[0].media;
-  Grid grid = scene.at[0].grids.at[media.at[mediumIndex].emissionGrid];
-  const vec3 voxel = grid.voxelFromWorld * vec4(point, 1.0);
-  float value = gridTrilinear(grid, voxel);
-  if (kPlantedBug == kBugOneTapBlackbody) {
-    const ivec3 brick = clamp(ivec3(floor(voxel / float(kBrickEdge))), ivec3(0), grid.brickCount - 1);
-    value = gridOneTap(grid, brick, voxel, rng);
-  }
-  float sigmaT = 0.0;
-  if (media.at[mediumIndex].emissionTied != 0u && media.at[mediumIndex].densityGrid != kNoGrid) {
-    Grid density = scene.at[0].grids.at[media.at[mediumIndex].densityGrid];
-    sigmaT = media.at[mediumIndex].sigmaT * gridTrilinear(density, density.voxelFromWorld * vec4(point, 1.0));
-  }
-  return emissionOf(media.at[mediumIndex], scene.at[0].blackbody, value, sigmaT);
 }
 
 // Leaves the stage at kStageVertex where a technique has nothing to give on this ray.

@@ -11,6 +11,7 @@
 #include "interop/pixel_sums.h"
 #include "interop/planted_bugs.h"
 #include "interop/scene.h"
+#include "interop/walk.h"
 
 // SPEC(type, name, id, default). A false flag removes the feature's code from the pipeline.
 // clang-format off
@@ -28,6 +29,7 @@
   SPEC(bool, kAovs,            10, false)       /* depth and albedo */                        \
   SPEC(bool, kWeighted,        11, true)        /* tracker: see tracker/walk.glsl */          \
   SPEC(bool, kCount,           12, true)        /* lookups and segments are counted */        \
+  SPEC(bool, kMediumTree,      14, false)       /* many grid media */                         \
   SPEC(uint, kPlantedBug,      13, 0u)          /* tests: kBug* below; 0 = none */
 // clang-format on
 
@@ -43,26 +45,6 @@ struct TraceCounters {
   uint negative;         // samples with a negative component
 };
 GPU_BUFFER(TraceCounters)
-
-// A ray segment being tracked through the grid media, one after the other.
-struct Walk {
-  vec3 origin;           // centred world space
-  vec3 direction;        // unit
-  float tMax;
-  uint mode;             // kWalk* of tracker/walk.glsl
-  uint medium;           // the one being walked
-  uint entered;          // 1: brick, t, tEnd, tau and the voxel-space ray are valid
-  ivec3 brick;
-  float t;
-  float tEnd;
-  float tau;             // majorant optical depth from t to the next tentative collision
-  vec3 voxelOrigin;
-  vec3 voxelDirection;
-  float transmittance;   // product over the segment so far
-  float weightSum;       // reservoir: weights seen
-  float tHit;            // the collision or emission point; < 0 = none
-  uint hitMedium;
-};
 
 // Everything that a suspended pixel needs to go on.
 struct TraceState {

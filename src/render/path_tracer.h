@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "passes/path/path_pass.h"
+#include "render/estimator.h"
+
+namespace tyndall::render {
+
+/// Specialization of the path pass for a scene: what it does not use has no code.
+passes::PathSpec pathSpecFor(const gpu_scene::Features& features, const EstimatorOptions& options);
+
+/// Paths through media and between surfaces.
+class PathTracer final : public Estimator {
+public:
+  PathTracer(const gpu::Device& device, const gpu_scene::GpuScene& scene, const EstimatorOptions& options);
+
+  std::span<const interop::PixelSums> run(std::span<const std::uint32_t> pixels, SampleRange samples,
+                                          std::uint32_t seed) override;
+  std::uint32_t chunkPixels() const override { return static_cast<std::uint32_t>(pixels_.size()); }
+  std::size_t kernelBytes() const override { return pass_.kernel().spirvBytes(); }
+  std::map<std::string, std::string> pipeline() const override;
+
+private:
+  void collect(const interop::PathCounters& counters);
+
+  const gpu_scene::GpuScene& scene_;
+  std::uint32_t stepBound_;
+  passes::PathSpec spec_;
+  passes::PathPass pass_;
+  gpu::Buffer<std::uint32_t> pixels_;
+  gpu::Buffer<interop::PixelSums> sums_;
+  gpu::Buffer<interop::PathState> suspended_[2];
+  gpu::Buffer<interop::PathCounters> counters_;
+};
+
+} // namespace tyndall::render

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lights seen by paths, against closed forms and quadrature: the sphere light in fog (docs/theory.md A3), a ball that
+// glows, a spot, holes in the way.
+#include "support/path_scenes.h"
+#include "support/quadrature.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace tyndall::test {
+namespace {
+
+using std::numbers::pi;
+
+/// Where a ray from the origin meets a sphere; first >= last: it misses.
+struct Chord {
+  double first = 0.0;
+  double last = 0.0;
+};
+Chord chordOf(const glm::dvec3& toCentre, double radius, const glm::dvec3& direction) {
+  const double middle = glm::dot(toCentre, direction);
+  const glm::dvec3 aside = toCentre - middle * direction;
+  const double half2 = radius * radius - glm::dot(aside, aside);
+  return half2 > 0.0 ? Chord{middle - std::sqrt(half2), middle + std::sqrt(half2)} : Chord{};
+}
+
+/// Integral over the cone of directions that meet a sphere from outside, by Gauss's rule in the angle from its axis
+/// (stretched, so that chords have no root at the horizon) and an even one around it.
+double overSphere(const glm::dvec3& toCentre, double radius, const std::function<double(const glm::dvec3&)>& function) {
+  const double distance = glm::length(toCentre);
+  const glm::dvec3 axis = toCentre / distance;
+  const glm::dvec3 across = glm::normalize(glm::cross(axis, glm::dvec3(0.3, 1.0, 0.2)));
+  const glm::dvec3 up = glm::cross(axis, across);
+  const GaussRule& rule = gaussRule(24);
+  constexpr int kAround = 48;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
+    // sin(theta) = R / d sin(u), u from 0 to 90 degrees.
+    const double u = 0.5 * pi * rule.nodes[i];
+    const double sine = radius / distance * std::sin(u);
+    const double cosine = std::sqrt(1.0 - sine * sine);
+    const double weight = rule.weights[i] * 0.5 * pi * sine * radius / distance * std::cos(u) / cosine;
+    for (int k = 0; k < kAround; ++k) {
+      const double phi = 2.0 * pi * (k + 0.5) / kAround;
+      sum += weight * 2.0 * pi / kAround *
+             function(sine * std::cos(phi) * across + sine * std::sin(phi) * up + cosine * axis);
+    }
+  }
+  return sum;
+}
+
+/// A camera that looks along +z at fog from z = 0 to 8, one scattering event; what shines is at kLamp.
+const glm::dvec3 kLamp{1.2, 0.3, 3.0};
+constexpr double kRadius = 0.6;
+constexpr double kDepth = 8.0;
+constexpr double kSigmaT = 0.3;
+constexpr double kAlbedo = 0.9;
+constexpr double kG = 0.5;
+
+PathScene fog() {
+  PathScene test({8, 8});
+  test.perspective({0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, 1e-6);
+  test.box({-30.0, -30.0, 0.0}, {30.0, 30.0, kDepth}, kSigmaT, kAlbedo).phase = henyeyGreenstein(kG);
+  test.depth(1);
+  return test;
+}
+
+double phase(double cosine) { return (1.0 - kG * kG) / (4.0 * pi * std::pow(1.0 + kG * kG - 2.0 * kG * cosine, 1.5)); }
+
+/// In-scattering along the axis; `light`: radiance that arrives from a direction, given the chord through the lamp.
+double airlight(const std::function<double(const Chord&)>& light) {
+  const auto at = [&](double t) {
+    const glm::dvec3 toLamp = kLamp - glm::dvec3(0.0, 0.0, t);
+    const auto scattered = [&](const glm::dvec3& w) { return phase(w.z) * light(chordOf(toLamp, kRadius, w)); };
+    return kAlbedo * kSigmaT * std::exp(-kSigmaT * t) * overSphere(toLamp, kRadius, scattered);
+  };
+  return integratePieces(at, {0.0, 2.0, 3.0, 4.0, kDepth}, 1e-7);
+}
+
+/// One standard error is some 0.1 %.
+TEST(SphereLightInFog, AgreesWithQuadratureByEachTechnique) {
+  PathScene test = fog();
+  test.lamp("lamp", 5.0);
+  test.ball("lamp", kLamp, kRadius);
+  const double reference = airlight([](const Chord& chord) { return 5.0 * std::exp(-kSigmaT * chord.first); });
+  for (const MomentOptions& options : eachTechnique({.replicates = 24, .samples = 128})) {
+    EXPECT_AGREES(imageTest(renderMoments(test.scene, test.volumes, options), reference, 0, 2e-5))
+        << techniqueOf(options);
+  }
+  const MomentOptions both = byPaths({.replicates = 24, .samples = 64});
+  for (const std::uint32_t bug : {interop::kBugPhaseSign, interop::kBugBranchPdf}) {
+    EXPECT_DIFFERS(imageTest(renderMoments(test.scene, test.volumes, withBug(both, bug)), reference, 0, 2e-5)) << bug;
+  }
+}
+
+/// The same place glows in all of its volume: emission 2 W/(m3 sr) within the fog, which dims it.
+TEST(GlowingBall, InFogAgreesWithQuadratureByEachTechnique) {
+  PathScene test = fog();
+  test.sphere(kLamp, kRadius, 0.0, 0.0).emission = scene::Emission{};
+  test.scene.media.back().emission->scale = 2.0;
+  const double reference = airlight([](const Chord& chord) {
+    return 2.0 * std::exp(-kSigmaT * chord.first) * -std::expm1(-kSigmaT * (chord.last - chord.first)) / kSigmaT;
+  });
+  for (const MomentOptions& options : eachTechnique({.replicates = 24, .samples = 128})) {
+    EXPECT_AGREES(imageTest(renderMoments(test.scene, test.volumes, options), reference, 0, 2e-5))
+        << techniqueOf(options);
+  }
+  const MomentOptions both = byPaths({.replicates = 24, .samples = 64});
+  EXPECT_DIFFERS(
+      imageTest(renderMoments(test.scene, test.volumes, withBug(both, interop::kBugVolumePdf)), reference, 0, 2e-5));
+}
+
+/// Seen directly: j times the chord, whatever the techniques.
+TEST(GlowingBall, SeenDirectlyIsAsBrightAsItsChordIsLong) {
+  PathScene test({8, 8});
+  test.perspective({0.0, 0.0, 4.0}, {0.4, 0.2, 0.0}, 1e-6);
+  test.sphere({0.0, 0.0, 0.0}, 1.0, 0.0, 0.0).emission = scene::Emission{};
+  const Chord chord = chordOf({0.0, 0.0, -4.0}, 1.0, glm::normalize(glm::dvec3(0.4, 0.2, -4.0)));
+  const Moments moments = renderMoments(test.scene, test.volumes, byPaths({.replicates = 8}));
+  EXPECT_AGREES(imageTest(moments, chord.last - chord.first, 0, 1e-5));
+  EXPECT_DIFFERS(imageTest(moments, 1.001 * (chord.last - chord.first), 0, 1e-5)); // planted: 0.1 % off
+}
+
+/// A camera that looks straight down at a point of the floor y = 0.
+PathScene floorView(const glm::dvec2& spot, double fov = 1e-6) {
+  PathScene test({8, 8});
+  test.perspective({spot.x, 3.0, spot.y}, {spot.x, 0.0, spot.y}, fov);
+  test.scene.camera.up = {0.0, 0.0, -1.0};
+  test.material("floor", MaterialId::Diffuse, 0.7);
+  test.quad("floor", {-20.0, 0.0, 20.0}, {40.0, 0.0, 0.0}, {0.0, 0.0, -40.0});
+  return test;
+}
+
+TEST(GlowingBall, LightsAFloorByEachTechnique) {
+  PathScene test = floorView({0.5, 0.2});
+  const glm::dvec3 centre(-0.6, 1.1, -0.3);
+  test.sphere(centre, 0.7, 0.0, 0.0).emission = scene::Emission{};
+  const glm::dvec3 toCentre = centre - glm::dvec3(0.5, 0.0, 0.2);
+  const double reference = 0.7 / pi * overSphere(toCentre, 0.7, [&](const glm::dvec3& w) {
+                             const Chord chord = chordOf(toCentre, 0.7, w);
+                             return (chord.last - chord.first) * w.y;
+                           });
+  for (const MomentOptions& options : eachTechnique({.replicates = 24, .samples = 64})) {
+    EXPECT_AGREES(imageTest(renderMoments(test.scene, test.volumes, options), reference, 0, 2e-5))
+        << techniqueOf(options);
+    const MomentOptions bad = withBug(options, interop::kBugVolumePdf);
+    if (options.estimator.techniques != interop::kTechniqueDirection) { // which has no use for that density
+      EXPECT_DIFFERS(imageTest(renderMoments(test.scene, test.volumes, bad), reference, 0, 2e-5))
+          << techniqueOf(options);
+    }
+  }
+}
+
+/// Mean over each pixel's footprint of a function of the floor's point, seen straight from above.
+std::vector<double> floorPicture(const PathScene& test, const std::function<double(double, double)>& radiance) {
+  const double half = 3.0 * std::tan(0.5 * glm::radians(test.scene.camera.verticalFov));
+  const glm::uvec2 size = test.scene.film.size;
+  const GaussRule& rule = gaussRule(6);
+  std::vector<double> picture(std::size_t(size.x) * size.y, 0.0);
+  for (std::size_t i = 0; i < picture.size(); ++i) {
+    for (std::size_t a = 0; a < rule.nodes.size(); ++a) {
+      for (std::size_t b = 0; b < rule.nodes.size(); ++b) {
+        const double x = half * (2.0 * (double(i % size.x) + rule.nodes[a]) / size.x - 1.0);
+        const double z = half * (2.0 * (double(i / size.x) + rule.nodes[b]) / size.y - 1.0);
+        picture[i] += rule.weights[a] * rule.weights[b] * radiance(x, z);
+      }
+    }
+  }
+  return picture;
+}
+
+/// The camera's place does not matter: nothing is in the air, and the spot is no obstacle.
+TEST(SpotLight, OnAFloorHasTheClosedForm) {
+  PathScene test = floorView({0.0, 0.0}, 40.0);
+  scene::SpotLight spot;
+  spot.position = {0.3, 1.5, -0.2};
+  spot.direction = glm::normalize(glm::dvec3(-0.3, -1.0, 0.2));
+  spot.intensity = glm::dvec3(4.0);
+  spot.outerAngle = 35.0;
+  spot.innerAngle = 10.0;
+  test.spot(spot);
+  const auto radiance = [&](double x, double z) {
+    const glm::dvec3 way = glm::dvec3(x, 0.0, z) - spot.position;
+    const double distance2 = glm::dot(way, way);
+    const double cosine = glm::dot(glm::normalize(way), spot.direction);
+    const double outer = std::cos(glm::radians(spot.outerAngle));
+    const double inner = std::cos(glm::radians(spot.innerAngle));
+    const double s = glm::clamp((cosine - outer) / (inner - outer), 0.0, 1.0);
+    return 0.7 / pi * 4.0 * s * s * (3.0 - 2.0 * s) * -way.y / (std::sqrt(distance2) * distance2);
+  };
+  const auto reference = floorPicture(test, radiance);
+  const Moments moments = renderMoments(test.scene, test.volumes, byPaths({.replicates = 16}));
+  EXPECT_AGREES(imageTest(moments, meanOf(reference), 0, 1e-4)); // 1e-4: of the footprint's quadrature
+  EXPECT_AGREES(pixelTest(moments, reference, 0, 1e-3));         // the same, where the falloff begins
+  const Moments bad =
+      renderMoments(test.scene, test.volumes, withBug(byPaths({.replicates = 16}), interop::kBugJacobian));
+  EXPECT_DIFFERS(imageTest(bad, meanOf(reference), 0, 1e-4));
+  spot.outerAngle = 34.5; // planted in the reference
+  EXPECT_DIFFERS(imageTest(moments, meanOf(floorPicture(test, radiance)), 0, 1e-4));
+}
+
+/// A pane of opacity 0.4 between a lamp and the floor lets 0.6 of its light through, exactly.
+TEST(Holes, LetTheirShareOfAShadowRayThrough) {
+  for (const double opacity : {0.4, 1.0}) {
+    PathScene test = floorView({0.0, 0.0});
+    geometry::Material& pane = test.material("pane", MaterialId::Diffuse, 0.0);
+    pane.opacity = opacity;
+    pane.alpha = geometry::Alpha::Blend;
+    test.quad("pane", {0.5, 0.5, 1.0}, {1.0, 0.0, 0.0}, {0.0, 0.0, -2.0}); // not in the camera's way
+    test.point({1.5, 1.0, 0.0}, 2.0);
+    const double reference = 0.7 / pi * 2.0 * (1.0 - opacity) / std::pow(1.5 * 1.5 + 1.0, 1.5);
+    const Moments moments = renderMoments(test.scene, test.volumes, byPaths({.replicates = 16, .samples = 64}));
+    if (opacity == 1.0) {
+      EXPECT_EQ(moments.image().mean, 0.0);
+      continue;
+    }
+    EXPECT_AGREES(imageTest(moments, reference, 0, 2e-5));
+    EXPECT_DIFFERS(imageTest(moments, reference * 0.59 / 0.6, 0, 2e-5)); // planted: an opacity of 0.41
+  }
+}
+
+} // namespace
+} // namespace tyndall::test
