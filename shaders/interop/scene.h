@@ -102,7 +102,7 @@ struct Scene {
   float pointShare;      // probability that light selection takes a point light
   uint maxEvents;        // scattering events of a path at most
   uint mediumNodeCount;
-  uint reserved;         // pointers lie at multiples of 8
+  uint reserved;         // unused: pointers lie at multiples of 8
   float emitterShare;    // pass `path`: probability that light selection takes an emitter
   GPU_PTR(Medium) media;
   GPU_PTR(Grid) grids;

@@ -55,10 +55,10 @@ std::string needForPaths(const scene::Scene& scene, const gpu_scene::PackedMedia
   const bool spots = std::any_of(scene.lights.begin(), scene.lights.end(), [](const scene::NamedLight& named) {
     return std::holds_alternative<scene::SpotLight>(named.light);
   });
-  return !scene.objects.empty()            ? "there are surfaces"
-         : scene.depth() != 1              ? "light scatters more than once"
-         : media.chromatic                 ? "extinction differs by channel"
-         : spots                           ? "there are spot lights"
+  return !scene.objects.empty() ? "there are surfaces"
+         : scene.depth() != 1   ? "light scatters more than once"
+         : media.chromatic      ? "extinction differs by channel"
+         : spots                ? "there are spot lights"
          : scene.camera.lensRadius > 0.0 && scene.camera.kind == scene::Camera::Kind::Perspective
              ? "the camera has a lens"
              : "";
@@ -82,7 +82,8 @@ MethodChoice chooseMethod(const scene::Scene& scene, const gpu_scene::VolumeSet&
   const gpu_scene::PackedMedia media = gpu_scene::packMedia(scene, volumes, sceneBounds(scene, volumes).centre());
   const std::string need = needForPaths(scene, media);
   if (!need.empty() && wanted && *wanted != Method::Path) {
-    fail("--estimator {}: it follows one event in media, but {}; use --estimator path or auto", methodName(*wanted), need);
+    fail("--estimator {}: it follows one event in media, but {}; use --estimator path or auto", methodName(*wanted),
+         need);
   }
   if (!need.empty() || wanted == Method::Path) {
     return {Method::Path, 0.0, need.empty() ? "as asked for" : need};

@@ -14,6 +14,10 @@ constexpr std::uint32_t kChunkOnGpu = 262144;
 /// A march counts many cells per pixel: the device's 32-bit counters must hold those of a dispatch.
 constexpr std::uint32_t kMarchChunkOnGpu = 65536;
 
+/// Well below what old Mesa cuts (65535 iterations), and on a GPU below what its watchdog allows.
+constexpr std::uint32_t kStepsOnCpu = 16384;
+constexpr std::uint32_t kStepsOnGpu = 2048;
+
 } // namespace
 
 const char* methodName(Method method) {
@@ -53,6 +57,13 @@ double stateBytes(Method method) {
   return 0.0;
 }
 
+std::uint32_t stepBoundFor(const gpu::Device& device, const EstimatorOptions& options) {
+  if (options.stepBound > 0) {
+    return options.stepBound;
+  }
+  return device.info().type == "cpu" ? kStepsOnCpu : kStepsOnGpu;
+}
+
 std::uint32_t chunkFor(const gpu::Device& device, const EstimatorOptions& options) {
   if (options.chunkPixels > 0) {
     return options.chunkPixels;
@@ -73,8 +84,7 @@ std::unique_ptr<Estimator> makeEstimator(const gpu::Device& device, const gpu_sc
 }
 
 double plannedBytes(const gpu::Device& device, const EstimatorOptions& options) {
-  const double perPixel = sizeof(std::uint32_t) + sizeof(interop::PixelSums) +
-                          2.0 * stateBytes(options.method);
+  const double perPixel = sizeof(std::uint32_t) + sizeof(interop::PixelSums) + 2.0 * stateBytes(options.method);
   return perPixel * chunkFor(device, options);
 }
 

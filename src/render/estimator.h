@@ -37,7 +37,7 @@ struct EstimatorOptions {
   std::uint32_t lightSelection = interop::kSelectTree; ///< paths: interop::kSelect*
   std::uint32_t techniques =
       interop::kTechniqueLight | interop::kTechniqueDirection; ///< paths: interop::kTechnique*, one or both
-  std::uint32_t plantedBug = 0;  ///< tests only: interop::kBug*
+  std::uint32_t plantedBug = 0;                                ///< tests only: interop::kBug*
 };
 
 /// Counters over all dispatches so far.

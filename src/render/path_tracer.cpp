@@ -1,25 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/path_tracer.h"
 
-#include "base/error.h"
-
 #include <algorithm>
 
 namespace tyndall::render {
 namespace {
 
-/// Well below what old Mesa cuts (65535 iterations), and on a GPU below what its watchdog allows.
-constexpr std::uint32_t kStepsOnCpu = 16384;
-constexpr std::uint32_t kStepsOnGpu = 2048;
 /// What a ray through the surfaces counts for.
 constexpr std::uint32_t kCastSteps = 16;
-
-std::uint32_t stepBoundFor(const gpu::Device& device, const EstimatorOptions& options) {
-  if (options.stepBound > 0) {
-    return options.stepBound;
-  }
-  return device.info().type == "cpu" ? kStepsOnCpu : kStepsOnGpu;
-}
 
 } // namespace
 
@@ -56,13 +44,8 @@ passes::PathSpec pathSpecFor(const gpu_scene::Features& features, const Estimato
 }
 
 PathTracer::PathTracer(const gpu::Device& device, const gpu_scene::GpuScene& scene, const EstimatorOptions& options)
-    : scene_(scene), stepBound_(stepBoundFor(device, options)), spec_(pathSpecFor(scene.features(), options)),
-      pass_(device, spec_, scene.images()), pixels_(device, chunkFor(device, options), gpu::Memory::Host),
-      sums_(device, pixels_.size(), gpu::Memory::Host), counters_(device, 1, gpu::Memory::Host) {
-  for (gpu::Buffer<interop::PathState>& queue : suspended_) {
-    queue = gpu::Buffer<interop::PathState>(device, pixels_.size(), gpu::Memory::Device);
-  }
-}
+    : scene_(scene), spec_(pathSpecFor(scene.features(), options)), pass_(device, spec_, scene.images()),
+      runner_(device, options) {}
 
 std::map<std::string, std::string> PathTracer::pipeline() const {
   std::map<std::string, std::string> result;
@@ -85,32 +68,10 @@ void PathTracer::collect(const interop::PathCounters& counters) {
 }
 
 std::span<const interop::PixelSums> PathTracer::run(std::span<const std::uint32_t> pixels, SampleRange samples,
-                                                std::uint32_t seed) {
-  TYNDALL_CHECK(pixels.size() <= pixels_.size() && samples.count > 0);
-  pixels_.write(pixels);
-  interop::PathInputs inputs{};
-  inputs.scene = scene_.ptr();
-  inputs.pixels = pixels_.ptr();
-  inputs.sums = sums_.ptr();
-  inputs.counters = counters_.ptr();
-  inputs.count = static_cast<std::uint32_t>(pixels.size());
-  inputs.firstSample = samples.first;
-  inputs.sampleCount = samples.count;
-  inputs.seed = seed;
-  inputs.stageCost = kCastSteps + scene_.loopCount();
-  inputs.stepBound = std::max(stepBound_, 2 * inputs.stageCost);
-  for (std::uint32_t round = 0; inputs.count > 0; ++round) {
-    inputs.suspendedIn = suspended_[(round + 1) % 2].ptr();
-    inputs.suspendedOut = suspended_[round % 2].ptr();
-    inputs.resume = round > 0 ? 1 : 0;
-    counters_.fillZero();
-    pass_.run(inputs);
-    const interop::PathCounters counters = counters_.mapped()[0];
-    collect(counters);
-    inputs.count = counters.suspended;
-  }
+                                                    std::uint32_t seed) {
   totals_.samples += std::uint64_t(pixels.size()) * samples.count;
-  return sums_.mapped().subspan(0, pixels.size());
+  return runner_.run(pass_, scene_.ptr(), pixels, samples, seed, kCastSteps + scene_.loopCount(),
+                     [this](const interop::PathCounters& counters) { collect(counters); });
 }
 
 } // namespace tyndall::render

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "passes/path/path_pass.h"
-#include "render/estimator.h"
+#include "render/batch_runner.h"
 
 namespace tyndall::render {
 
@@ -16,7 +16,7 @@ public:
 
   std::span<const interop::PixelSums> run(std::span<const std::uint32_t> pixels, SampleRange samples,
                                           std::uint32_t seed) override;
-  std::uint32_t chunkPixels() const override { return static_cast<std::uint32_t>(pixels_.size()); }
+  std::uint32_t chunkPixels() const override { return runner_.chunkPixels(); }
   std::size_t kernelBytes() const override { return pass_.kernel().spirvBytes(); }
   std::map<std::string, std::string> pipeline() const override;
 
@@ -24,13 +24,9 @@ private:
   void collect(const interop::PathCounters& counters);
 
   const gpu_scene::GpuScene& scene_;
-  std::uint32_t stepBound_;
   passes::PathSpec spec_;
   passes::PathPass pass_;
-  gpu::Buffer<std::uint32_t> pixels_;
-  gpu::Buffer<interop::PixelSums> sums_;
-  gpu::Buffer<interop::PathState> suspended_[2];
-  gpu::Buffer<interop::PathCounters> counters_;
+  BatchRunner<passes::PathPass, interop::PathInputs, interop::PathState, interop::PathCounters> runner_;
 };
 
 } // namespace tyndall::render
