@@ -42,7 +42,7 @@ def house_places(rng):
                 for dz in (-1, 1):
                     x = (i + 0.5) * PITCH - half + dx * house / 2
                     z = (j + 0.5) * PITCH - half + dz * house / 2
-                    result.append(place(x, z, (house - 1, rng.uniform(4, 15), house - 1)))
+                    result.append(place(x, z, (house - 1, rng.uniform(5, 17), house - 1)))
     return result
 
 
@@ -52,7 +52,7 @@ def ground(half):
 
 
 def lamps(name, places):
-    return {"name": name, "type": "sphere", "centre": [0, HEIGHT, 0], "radius": 0.35,
+    return {"name": name, "type": "sphere", "centre": [0, HEIGHT, 0], "radius": 0.3,
             "instances": [place(x, z) for x, z in places], "material": name}
 
 
@@ -62,11 +62,11 @@ def scene():
     return {
         "$schema": "../docs/scene.schema.json",
         "name": "street-lights",
-        "camera": {"position": [-7, 62, 205], "target": [0, 0, 40], "vertical_fov": 38},
+        "camera": {"position": [3, 13, 172], "target": [-4, 6.5, 60], "vertical_fov": 36},
         "film": {"size": [400, 300], "exposure": 1, "view": "filmic"},
-        "render": {"samples": 64},
+        "render": {"samples": 128},
         "media": [{
-            "name": "mist", "type": "homogeneous", "extinction": 0.006, "albedo": 0.95,
+            "name": "mist", "type": "homogeneous", "extinction": 0.009, "albedo": 0.95,
             "phase": {"type": "henyey-greenstein", "g": 0.6},
             "shape": {"type": "box", "min": [-half, 0, -half], "max": [half, 28, half]},
         }],

@@ -15,6 +15,7 @@ GPU_CONST uint kEmitterSphere = 3;   // position = centre, edge1.x = radius; out
 GPU_CONST uint kEmitterVolume = 4;   // index = medium whose emission it is; inside the box position, position + edge1
 
 GPU_CONST uint kEmitterTwoSided = 1u; // flag
+GPU_CONST uint kEmitterSmall = 2u;    // flag: a point, a spot, or a sphere that is small beside the scene
 
 struct Emitter {
   uint kind;          // kEmitter*

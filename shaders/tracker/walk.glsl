@@ -11,7 +11,7 @@
 //
 // The includer declares two specialization constants. kMediumTree: there are many grid media, a tree of their boxes says
 // which ones the segment may meet. kChromatic: where extinction differs by channel, one channel, the hero, decides what
-// collides; Walk::ratio says how much more or less likely it is by the others' extinction (docs/theory.md, (23)).
+// collides; Walk::ratio says how much more or less likely it is by the others' extinction (docs/theory.md, (64)).
 #ifndef TYNDALL_TRACKER_WALK_GLSL
 #define TYNDALL_TRACKER_WALK_GLSL
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/commands.h"
 #include "app/device_options.h"
+#include "app/mesh_input.h"
 #include "app/reference_check.h"
 #include "base/error.h"
 #include "scene/load.h"
@@ -33,6 +34,9 @@ std::vector<scene::Problem> problemsOf(const std::string& path) {
 int checkCommand(const std::string& path) {
   if (path.ends_with(".vdb")) {
     fail("{}: is a volume, not a scene; see what it holds with: tyndall info {}", path, path);
+  }
+  if (isMesh(path)) {
+    fail("{}", meshAdvice(path));
   }
   if (!path.ends_with(".json")) {
     fail("{}: is not a scene; name a .json file", path);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/commands.h"
 #include "app/device_options.h"
+#include "app/mesh_input.h"
 #include "app/scene_summary.h"
 #include "app/volume_summary.h"
 #include "base/error.h"
@@ -41,6 +42,9 @@ int print(const Summary& summary, bool json) {
 int infoCommand(const InfoArguments& arguments) {
   if (isVolume(arguments.file)) {
     return print(summariseVolume(arguments.file), arguments.json);
+  }
+  if (isMesh(arguments.file)) {
+    fail("{}", meshAdvice(arguments.file));
   }
   if (!arguments.file.ends_with(".json")) {
     fail("{}: is neither a volume (.vdb) nor a scene (.json); name one of these", arguments.file);

@@ -4,12 +4,14 @@
 #include "app/frames.h"
 #include "base/file.h"
 #include "film/exr.h"
+#include "geometry/model.h"
 #include "scene/file_reference.h"
 #include "scene/json.h"
 #include "volume/load.h"
 
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace tyndall::app {
 namespace {
@@ -32,6 +34,7 @@ public:
     const json::Parsed parsed = json::parse(readTextFile(file_));
     forEach(parsed.root, "media", [this](const json::Value& medium) { checkMedium(medium); });
     forEach(parsed.root, "lights", [this](const json::Value& light) { checkLight(light); });
+    forEach(parsed.root, "objects", [this](const json::Value& object) { checkMesh(object); });
     return std::move(problems_);
   }
 
@@ -138,6 +141,21 @@ private:
     }
   }
 
+  void checkMesh(const json::Value& object) {
+    const json::Value* name = text(object, "file");
+    const std::string path = name == nullptr ? "" : present(*name);
+    if (path.empty() || !meshes_.insert(path).second) {
+      return;
+    }
+    try {
+      for (const std::string& warning : geometry::loadModel(path).warnings) {
+        report(*name, "file", fmt::format("{}: {}", path, warning), true);
+      }
+    } catch (const Error& error) {
+      report(*name, "file", error.what());
+    }
+  }
+
   void checkLight(const json::Value& light) {
     const json::Value* name = text(light, "file");
     const std::string path = name == nullptr ? "" : present(*name);
@@ -174,6 +192,7 @@ private:
   std::filesystem::path file_;
   std::string current_; ///< key path of the element being checked, "media.0"
   std::map<std::string, FileInfo> volumes_;
+  std::set<std::string> meshes_; ///< looked at already
   std::vector<scene::Problem> problems_;
 };
 

@@ -29,7 +29,14 @@ constexpr std::uint32_t kMaxDepth = 1u << 16;   // likewise
 
 /// 0 stands for unlimited, as in a scene file.
 std::uint32_t parseDepth(const std::string& option, const std::string& value) {
-  return value == "unlimited" ? 0 : parseWhole(option, value, {0, kMaxDepth});
+  if (value == "unlimited") {
+    return 0;
+  }
+  try {
+    return parseWhole(option, value, {0, kMaxDepth});
+  } catch (const Error& error) {
+    fail("{}, or \"unlimited\"", error.what());
+  }
 }
 
 void addLimits(CLI::App& command, RenderRequest& request) {
@@ -98,6 +105,17 @@ void addWork(CLI::App& command, RenderRequest& request) {
       "how light is computed: march (exact steps, light caches) and tracking (random steps) for one event in media, "
       "path for everything; auto: the first of them that serves",
       "NAME");
+  text(
+      command, "--rays",
+      [&request](const std::string& value) {
+        if (value != "auto" && value != "tree" && value != "query") {
+          fail("--rays {}: there are auto (the default), tree and query", value);
+        }
+        request.rays = value == "tree"    ? render::RayCaster::Tree
+                       : value == "query" ? render::RayCaster::Query
+                                          : render::RayCaster::Auto;
+      },
+      "what casts rays at surfaces: tree (our own), query (the device's ray queries); auto: the faster one", "NAME");
   command.add_flag("--preview", request.preview,
                    "BIASED, for a quick look: the march takes its light caches for true instead of correcting them");
   text(

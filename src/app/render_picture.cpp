@@ -111,6 +111,10 @@ void sayWhatCameOut(const PictureContext& context, const RenderRecord& record, c
                           context.request.preview ? errorInWords(record.error) + " and a bias that it does not know"
                                                   : errorInWords(record.error),
                           percent(record.png.clippedShare)));
+  if (report.totals.events > 0) {
+    context.say(fmt::format("paths: {:.2f} scattering events per sample, {} in the longest",
+                            double(report.totals.events) / double(report.totals.samples), report.totals.longest));
+  }
   if (report.totals.negative > 0) {
     context.say(fmt::format("{} samples were negative, which this estimator may produce", report.totals.negative));
   }
@@ -145,13 +149,14 @@ int judge(const PictureContext& context, const RenderRecord& record, const film:
   return kDone;
 }
 
-/// What the grids in the estimator's layout, the light caches and the estimator's own buffers take.
+/// What the grids in the estimator's layout, surfaces, the light caches and the estimator's own buffers take.
 double plannedBytes(const PictureContext& context, const Prepared& prepared) {
   const bool cells = render::layoutOf(prepared.choice.method) == gpu_scene::GridLayout::Cells;
   const double grids = cells ? gpu_scene::plannedCellBytes(prepared.gpuScene->media(), prepared.volumes)
                              : prepared.volumes.deviceBytes();
   const render::EstimatorOptions options = estimatorOptions(context.request, prepared.choice);
-  return grids + prepared.estimator->caches().bytes + render::plannedBytes(context.device, options);
+  return grids + double(prepared.gpuScene->surfaceBytes()) + prepared.estimator->caches().bytes +
+         render::plannedBytes(context.device, options);
 }
 
 } // namespace
@@ -161,7 +166,8 @@ render::EstimatorOptions estimatorOptions(const RenderRequest& request, const re
           .aovs = request.deviceAovs(),
           .deltaTracking = request.deltaTracking.value_or(false),
           .preview = request.preview,
-          .cacheBytes = choice.cacheBytes};
+          .cacheBytes = choice.cacheBytes,
+          .rays = request.rays};
 }
 
 int renderPicture(const PictureContext& context, const Prepared& prepared, const OutputFiles& files) {
@@ -173,6 +179,7 @@ int renderPicture(const PictureContext& context, const Prepared& prepared, const
                       .device = context.device,
                       .report = report,
                       .choice = prepared.choice,
+                      .surfaces = countSurfaces(prepared.gpuScene->surfaces(), prepared.gpuScene->emitters()),
                       .error = {},
                       .png = {},
                       .plannedBytes = plannedBytes(context, prepared),

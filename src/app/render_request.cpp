@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/render_request.h"
 
+#include "app/mesh_input.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "film/picture.h"
@@ -56,6 +57,9 @@ void checkCombinations(const RenderRequest& request) {
   if (volumeOptions && !request.bareVolume()) {
     fail("--grid, --density-scale, --optical-depth and --up are for bare volumes; in a scene use --set, such as "
          "--set media.0.density_scale=2");
+  }
+  if (isMesh(request.input)) {
+    fail("{}", meshAdvice(request.input));
   }
   if (request.densityScale && request.opticalDepth) {
     fail("--density-scale and --optical-depth both say how dense the volume is; give one of them");

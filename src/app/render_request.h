@@ -37,6 +37,7 @@ struct RenderRequest {
   bool quiet = false;
   bool mergeable = false;
   std::optional<render::Method> method; ///< nullopt: chosen for the scene
+  render::RayCaster rays = render::RayCaster::Auto;
   bool preview = false;                 ///< biased: the march without its correction
   std::optional<bool> deltaTracking;    ///< --tracker; nullopt: not asked for
   std::string device;                   ///< index or part of the name

@@ -65,6 +65,13 @@ Json settingsJson(const RenderRecord& record) {
   return settings;
 }
 
+/// How long paths were: scattering events in media and at surfaces.
+Json pathsJson(const render::Totals& totals) {
+  return {{"events", totals.events},
+          {"mean_events_per_sample", totals.samples > 0 ? double(totals.events) / double(totals.samples) : 0.0},
+          {"most_events_of_one", totals.longest}};
+}
+
 } // namespace
 
 std::string statisticsJson(const RenderRecord& record, const film::Metadata& metadata) {
@@ -87,6 +94,10 @@ std::string statisticsJson(const RenderRecord& record, const film::Metadata& met
                      {"render", report.seconds},
                      {"write", record.timings.write}};
   root["samples"] = totals.samples;
+  if (record.choice.method == render::Method::Path) {
+    root["paths"] = pathsJson(totals);
+    root["surfaces"] = toJson(record.surfaces);
+  }
   root["density_lookups"] = totals.lookups;
   root["segments"] = totals.segments;
   root["ray_pieces"] = totals.steps;

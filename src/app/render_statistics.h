@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/render_request.h"
+#include "app/surface_counts.h"
 #include "film/film.h"
 #include "film/png.h"
 #include "gpu/device.h"
@@ -29,9 +30,11 @@ struct RenderRecord {
   const gpu::Device& device;
   const render::RenderReport& report;
   const render::MethodChoice& choice;
+  SurfaceCounts surfaces; ///< as they were uploaded; all 0 without the estimator path
   film::ErrorEstimate error;
   film::PngReport png;
-  double plannedBytes = 0.0; ///< on the device, for grids, light caches and the estimator, as they were chosen
+  double plannedBytes =
+      0.0; ///< on the device, for grids, surfaces, light caches and the estimator, as they were chosen
   Timings timings;
   std::vector<std::string> notes;
 };

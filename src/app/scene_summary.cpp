@@ -206,11 +206,16 @@ SceneSummary summariseScene(const scene::Scene& scene) {
     summary.grids.push_back({grid.name, volume::storageName(grid.storage), grid.deviceBytes(), grid.worldBounds()});
   }
   summary.deviceBytes = volumes.deviceBytes();
-  const gpu_scene::PackedMedia media =
-      gpu_scene::packMedia(firstFrame, volumes, gpu_scene::sceneBounds(firstFrame, volumes).centre());
+  gpu_scene::addModelLights(firstFrame, volumes.meshes);
+  const Bounds3 bounds = gpu_scene::sceneBounds(firstFrame, volumes);
+  const glm::dvec3 centre = bounds.centre();
+  gpu_scene::PackedMedia media = gpu_scene::packMedia(firstFrame, volumes, centre);
   summary.cellBytes = gpu_scene::plannedCellBytes(media, volumes);
+  const gpu_scene::PackedSurfaces surfaces = gpu_scene::packSurfaces(firstFrame, volumes.meshes, media.indexOf, centre);
+  summary.surfaces = countSurfaces(surfaces, gpu_scene::packEmitters(firstFrame, surfaces, media, bounds));
   summary.filmBytes = double(scene.film.size.x) * scene.film.size.y * sizeof(film::PixelState);
   summary.notes = volumes.notes;
+  summary.notes.insert(summary.notes.end(), surfaces.notes.begin(), surfaces.notes.end());
   return summary;
 }
 
@@ -246,6 +251,9 @@ std::string toText(const SceneSummary& summary) {
     line("grid", fmt::format("\"{}\": {} as {}, world bounds {} to {}", grid.name, inBytes(grid.bytes), grid.storage,
                              inWords(grid.worldBounds.min), inWords(grid.worldBounds.max)));
   }
+  if (!scene.objects.empty()) {
+    line("surfaces", toText(summary.surfaces) + " on the device");
+  }
   for (const std::string& note : summary.notes) {
     line("note", note);
   }
@@ -268,6 +276,7 @@ nlohmann::ordered_json toJson(const SceneSummary& summary) {
   }
   json["device_bytes"] = summary.deviceBytes;
   json["march_device_bytes"] = summary.cellBytes;
+  json["surfaces"] = toJson(summary.surfaces);
   json["film_bytes"] = summary.filmBytes;
   json["notes"] = summary.notes;
   return json;

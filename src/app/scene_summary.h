@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "app/surface_counts.h"
 #include "scene/scene.h"
 
 #include <nlohmann/json_fwd.hpp>
@@ -28,11 +29,13 @@ struct SceneSummary {
   std::vector<PlannedGrid> grids; ///< each once, however many media use it
   double deviceBytes = 0.0;       ///< of the grids as tracking reads them
   double cellBytes = 0.0;         ///< of the grids as the march reads them, light caches aside
+  SurfaceCounts surfaces;         ///< as paths read them
   double filmBytes = 0.0;         ///< of the film's sums in the host's memory
   std::vector<std::string> notes;
 };
 
-/// Reads the volumes that the scene names; of a sequence its first frame. @throws Error if one of them is bad.
+/// Reads the volumes and meshes that the scene names; of a sequence its first frame. @throws Error if one of them is
+/// bad.
 SceneSummary summariseScene(const scene::Scene& scene);
 
 std::string toText(const SceneSummary& summary);

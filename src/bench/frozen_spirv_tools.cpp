@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/frozen.h"
-
 #include "base/error.h"
+#include "bench/frozen.h"
 
 #include <spirv-tools/optimizer.hpp>
 

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 
 namespace tyndall::bench {
@@ -20,6 +21,7 @@ struct Command {
   const char* help;
   Report report;
   bool readsVolume = true;
+  bool compilesAnew = false; ///< shaders cached by an earlier run would hide what is measured
 };
 
 constexpr Command kCommands[] = {
@@ -28,6 +30,9 @@ constexpr Command kCommands[] = {
     {"caches", "Light caches: memory, build time, and what small budgets cost", cachesReport},
     {"lanes", "Active lanes and cells per second of the march", lanesReport},
     {"rays", "Rays per second through surfaces, beside Embree", raysReport, false},
+    {"paths", "Samples and rays per second of paths, beside the bare parts", pathsReport},
+    {"lights", "Variance times time of the choice among many lights", lightsReport, false},
+    {"skip", "What each feature of paths costs where a scene does not need it", skipReport, true, true},
 };
 
 void addOptions(CLI::App& app, const Command& command, Options& options) {
@@ -66,6 +71,9 @@ volume::BrickGrid loadedGrid(const Options& options) {
 int run(const Command& command, const Options& options) {
   if (!options.json.empty()) {
     checkWritable(options.json);
+  }
+  if (command.compilesAnew) {
+    setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
   }
   const gpu::Device device({.select = options.device, .validation = false, .pipelineCache = {}});
   const volume::BrickGrid grid = command.readsVolume ? loadedGrid(options) : volume::BrickGrid{};

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <functional>
 
 namespace tyndall::bench {
 
@@ -50,6 +51,18 @@ Figure medianTime(const std::vector<double>& seconds) {
   }
   constexpr double kMedianOverMean = 1.2533; // sqrt(pi / 2): of a normal sample's standard errors
   return {median(seconds), kMedianOverMean * std::sqrt(variance / count)};
+}
+
+Figure ratioInTurn(const std::vector<double>& a, const std::vector<double>& b) {
+  TYNDALL_CHECK(a.size() == b.size());
+  std::vector<double> ratios(a.size());
+  std::transform(a.begin(), a.end(), b.begin(), ratios.begin(), std::divides<>());
+  return medianTime(ratios);
+}
+
+std::string rangeText(const Figure& figure, std::size_t repeats) {
+  const Interval ends = interval(figure, repeats);
+  return fmt::format("{} [{}, {}]", shortText(figure.value), shortText(ends.low), shortText(ends.high));
 }
 
 std::string shortText(double value) {

@@ -37,6 +37,12 @@ Interval interval(const Figure& figure, std::size_t repeats);
 /// Median of positive times and its error, as if their logarithms were normal.
 Figure medianTime(const std::vector<double>& seconds);
 
+/// a over b, which were measured in turn: of the ratios round by round, so that what else the machine does cancels.
+Figure ratioInTurn(const std::vector<double>& a, const std::vector<double>& b);
+
+/// "1.02 [0.99, 1.05]": the figure and its 95 % interval.
+std::string rangeText(const Figure& figure, std::size_t repeats);
+
 /// Three digits, with an exponent only where the number needs one.
 std::string shortText(double value);
 

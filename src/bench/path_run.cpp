@@ -14,11 +14,16 @@
 namespace tyndall::bench {
 namespace {
 
-/// As in the renderer: well below what a watchdog allows on a GPU.
-constexpr std::uint32_t kStepsOnCpu = 16384;
-constexpr std::uint32_t kStepsOnGpu = 2048;
+/// What a ray through the surfaces counts for in steps, as in render::PathTracer.
 constexpr std::uint32_t kCastSteps = 16;
-constexpr std::uint32_t kFirstPixels = 64;
+constexpr std::size_t kFirstPixels = 64;
+
+render::EstimatorOptions oneChunk(std::size_t pixels) {
+  render::EstimatorOptions options;
+  options.method = render::Method::Path;
+  options.chunkPixels = static_cast<std::uint32_t>(pixels);
+  return options;
+}
 
 gpu::Kernel timedKernel(const gpu::Device& device, std::span<const std::uint32_t> module,
                         std::span<const gpu::SpecEntry> spec, const gpu::AtlasImages& images, Cost& cost) {
@@ -43,63 +48,41 @@ double PathFigures::totalSeconds() const { return std::accumulate(seconds.begin(
 
 PathRun::PathRun(const gpu::Device& device, const gpu_scene::GpuScene& scene, std::span<const std::uint32_t> module,
                  std::span<const gpu::SpecEntry> spec, const std::vector<std::uint32_t>& pixels)
-    : device_(&device), scene_(&scene), kernel_(timedKernel(device, module, spec, scene.images(), creation_)),
-      pixels_(device, std::span<const std::uint32_t>(pixels), gpu::Memory::Host),
-      sums_(device, pixels.size(), gpu::Memory::Host), counters_(device, 1, gpu::Memory::Host) {
-  for (gpu::Buffer<interop::PathState>& queue : suspended_) {
-    queue = gpu::Buffer<interop::PathState>(device, pixels.size(), gpu::Memory::Device);
-  }
-  const auto count = std::min(kFirstPixels, static_cast<std::uint32_t>(pixels.size()));
-  compileSeconds_ = secondsOf(creation_, device) + dispatch(count, 1, 0);
+    : device_(&device), scene_(&scene),
+      pixels_(pixels), pass_{timedKernel(device, module, spec, scene.images(), creation_)},
+      runner_(device, oneChunk(pixels.size())) {
+  const Cost first = costOf([&] { take(std::min(kFirstPixels, pixels_.size()), 1, 0); });
+  compileSeconds_ = secondsOf(creation_, device) + secondsOf(first, device);
 }
 
 void PathRun::run(std::uint32_t samples, std::uint32_t seed, bool warmUp) {
-  const auto count = static_cast<std::uint32_t>(pixels_.size());
-  const double seconds = dispatch(count, samples, seed);
+  std::span<const interop::PixelSums> sums;
+  const Cost cost = costOf([&] { sums = take(pixels_.size(), samples, seed); });
   if (warmUp) {
     return;
   }
   std::vector<double> picture;
-  for (const interop::PixelSums& sums : sums_.mapped()) {
-    const glm::dvec3 path(sums.moments[0], sums.moments[1], sums.moments[2]);
-    const glm::dvec3 background(sums.extras[0], sums.extras[1], sums.extras[2]);
+  for (const interop::PixelSums& each : sums) {
+    const glm::dvec3 path(each.moments[0], each.moments[1], each.moments[2]);
+    const glm::dvec3 background(each.extras[0], each.extras[1], each.extras[2]);
     picture.push_back(luminance(path + background) / samples);
   }
   figures_.pictures.push_back(std::move(picture));
-  figures_.seconds.push_back(seconds);
-  figures_.samples += double(count) * samples;
+  figures_.seconds.push_back(secondsOf(cost, *device_));
+  figures_.samples += double(pixels_.size()) * samples;
   figures_.segments += last_.segments;
   figures_.lookups += last_.lookups;
   figures_.events += last_.events;
 }
 
-double PathRun::dispatch(std::uint32_t count, std::uint32_t samples, std::uint32_t seed) {
-  interop::PathInputs inputs{};
-  inputs.scene = scene_->ptr();
-  inputs.pixels = pixels_.ptr();
-  inputs.sums = sums_.ptr();
-  inputs.counters = counters_.ptr();
-  inputs.count = count;
-  inputs.sampleCount = samples;
-  inputs.seed = seed;
-  inputs.stageCost = kCastSteps + scene_->loopCount();
-  inputs.stepBound = std::max(device_->info().type == "cpu" ? kStepsOnCpu : kStepsOnGpu, 2 * inputs.stageCost);
+std::span<const interop::PixelSums> PathRun::take(std::size_t count, std::uint32_t samples, std::uint32_t seed) {
   last_ = {};
-  return secondsOf(costOf([&] {
-                     for (std::uint32_t round = 0; inputs.count > 0; ++round) {
-                       inputs.suspendedIn = suspended_[(round + 1) % 2].ptr();
-                       inputs.suspendedOut = suspended_[round % 2].ptr();
-                       inputs.resume = round > 0 ? 1 : 0;
-                       counters_.fillZero();
-                       kernel_.run(inputs, inputs.count);
-                       const interop::PathCounters counters = counters_.mapped()[0];
+  return runner_.run(pass_, scene_->ptr(), {pixels_.data(), count}, {0, samples}, seed,
+                     kCastSteps + scene_->loopCount(), [this](const interop::PathCounters& counters) {
                        last_.segments += counters.segments;
                        last_.lookups += counters.lookups;
                        last_.events += counters.events;
-                       inputs.count = counters.suspended;
-                     }
-                   }),
-                   *device_);
+                     });
 }
 
 } // namespace tyndall::bench

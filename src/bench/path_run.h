@@ -5,6 +5,7 @@
 #include "gpu/kernel.h"
 #include "gpu_scene/gpu_scene.h"
 #include "passes/path/path_pass.h"
+#include "render/batch_runner.h"
 
 #include <span>
 #include <vector>
@@ -41,16 +42,20 @@ public:
   const PathFigures& figures() const { return figures_; }
 
 private:
-  double dispatch(std::uint32_t count, std::uint32_t samples, std::uint32_t seed);
+  /// Any kernel with the inputs of pass `path`.
+  struct Pass {
+    gpu::Kernel kernel;
+    void run(const interop::PathInputs& inputs) const { kernel.run(inputs, inputs.count); }
+  };
+
+  std::span<const interop::PixelSums> take(std::size_t count, std::uint32_t samples, std::uint32_t seed);
 
   const gpu::Device* device_;
   const gpu_scene::GpuScene* scene_;
-  Cost creation_; // of the kernel, before it: members are made in this order
-  gpu::Kernel kernel_;
-  gpu::Buffer<std::uint32_t> pixels_;
-  gpu::Buffer<interop::PixelSums> sums_;
-  gpu::Buffer<interop::PathCounters> counters_;
-  gpu::Buffer<interop::PathState> suspended_[2];
+  std::vector<std::uint32_t> pixels_;
+  Cost creation_; // of the kernel, which is made next
+  Pass pass_;
+  render::BatchRunner<Pass, interop::PathInputs, interop::PathState, interop::PathCounters> runner_;
   double compileSeconds_ = 0.0;
   PathFigures figures_;
   PathFigures last_; // counters of the pass in hand

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "bench/ceilings.h"
 #include "bench/commands.h"
 #include "bench/measure.h"
 #include "bench/ray_scenes.h"
@@ -167,6 +168,28 @@ Json sceneRows(const Session& session, const RayScene& scene) {
 }
 
 } // namespace
+
+RayRates rayRates(const Session& session, const RayScene& scene) {
+  const geometry::Bvh bvh = geometry::buildBvh(scene.triangles);
+  DeviceCaster caster(session.device, bvh);
+  const Rays primary = primaryRays(scene, session.options.size);
+  const auto rate = [&](const Rays& rays, bool anyHit) {
+    caster.load(rays);
+    caster.run(anyHit); // compiles
+    std::vector<double> seconds;
+    for (std::uint32_t round = 0; round < session.options.repeats; ++round) {
+      const Cost cost = costOf([&] { caster.run(anyHit); });
+      seconds.push_back(session.device.info().type == "cpu" ? cost.cpu : cost.wall);
+    }
+    return double(rays.size()) / median(seconds);
+  };
+  RayRates rates;
+  rates.primary = rate(primary, false);
+  const std::vector<BenchHit> hits(caster.hits().begin(), caster.hits().end());
+  rates.diffuse = rate(secondaryRays(scene, bvh, primary, hits, false), false);
+  rates.shadow = rate(secondaryRays(scene, bvh, primary, hits, true), true);
+  return rates;
+}
 
 Json raysReport(const Session& session) {
   fmt::print("\nmillion rays per {}; 95 % intervals{}\n",

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "bench/ceilings.h"
 #include "bench/commands.h"
 #include "bench/measure.h"
 #include "bench/scenes.h"
@@ -62,7 +63,8 @@ Json printRow(const char* name, const std::vector<Figures>& runs) {
           {"samples", totals.samples}, {"lookups", totals.lookups}, {"segments", totals.segments}};
 }
 
-/// Lookups per second, by both clocks.
+} // namespace
+
 Cost bareLookups(const gpu::Device& device, const gpu_scene::GpuScene& gpuScene, const Options& options,
                  double meanStep) {
   const std::array spec{gpu::SpecEntry{0, gpuScene.features().formatMask}};
@@ -86,8 +88,6 @@ Cost bareLookups(const gpu::Device& device, const gpu_scene::GpuScene& gpuScene,
   const double lookups = double(hits) * kLookups;
   return {lookups / median(wall), lookups / median(cpu)};
 }
-
-} // namespace
 
 Json trackingReport(const Session& session) {
   const Options& options = session.options;

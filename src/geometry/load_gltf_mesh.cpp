@@ -75,6 +75,13 @@ public:
     if (morphs_) {
       model_.warnings.push_back("Morph targets are passed over.");
     }
+    if (colours_) {
+      model_.warnings.push_back("Passed over: the vertices' colours.");
+    }
+    if (incomplete_ > 0) {
+      model_.warnings.push_back(
+          fmt::format("{} triangles that lack a corner at their primitive's end were left out.", incomplete_));
+    }
   }
 
 private:
@@ -98,6 +105,8 @@ private:
       std::iota(corners.begin(), corners.end(), 0U);
     }
     part.triangles = trianglesOf(corners, from.mode);
+    colours_ |= attribute(from, "COLOR_0") >= 0;
+    incomplete_ += from.mode == TINYGLTF_MODE_TRIANGLES ? corners.size() % 3 != 0 : part.triangles.empty();
     readNormals(from, part);
     readUvs(from, part);
     std::uint32_t material = materialOf(from.material);
@@ -176,6 +185,8 @@ private:
   std::size_t triangles_ = 0;
   std::size_t others_ = 0;
   bool morphs_ = false;
+  bool colours_ = false;
+  std::size_t incomplete_ = 0;
 };
 
 } // namespace

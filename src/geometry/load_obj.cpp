@@ -103,6 +103,21 @@ std::string plainText(std::string bytes) {
   return bytes;
 }
 
+/// What the vertices' lines hold that tinyobjloader does not tell.
+struct VertexLines {
+  std::vector<std::size_t> unreadable; ///< numbers of the vertices that have no position
+  bool coloured = false;
+};
+
+/// Position and colour are six numbers, seven with a weight [Wavefront 1992; the colour is a later custom].
+bool hasColour(std::string_view line) {
+  int words = 0;
+  for (std::size_t at = line.find_first_not_of(" \t"); at != std::string_view::npos && line[at] != '#'; ++words) {
+    at = line.find_first_not_of(" \t", std::min(line.find_first_of(" \t", at), line.size()));
+  }
+  return words >= 6;
+}
+
 /// Whether three finite numbers follow. tinyobjloader takes 0 for what it cannot read, NaN among it.
 bool hasPosition(std::string_view line) {
   for (int i = 0; i < 3; ++i) {
@@ -118,9 +133,8 @@ bool hasPosition(std::string_view line) {
   return true;
 }
 
-/// Numbers of the vertices whose lines do not hold a position.
-std::vector<std::size_t> unreadableVertices(std::string_view text) {
-  std::vector<std::size_t> unreadable;
+VertexLines vertexLinesOf(std::string_view text) {
+  VertexLines lines;
   std::size_t vertex = 0;
   while (!text.empty()) {
     std::string_view line = text.substr(0, text.find_first_of("\r\n"));
@@ -128,12 +142,13 @@ std::vector<std::size_t> unreadableVertices(std::string_view text) {
     line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
     if (line.starts_with("v ") || line.starts_with("v\t")) {
       if (!hasPosition(line.substr(2))) {
-        unreadable.push_back(vertex);
+        lines.unreadable.push_back(vertex);
       }
+      lines.coloured = lines.coloured || hasColour(line.substr(2));
       ++vertex;
     }
   }
-  return unreadable;
+  return lines;
 }
 
 /// Polygons to triangles, corners to vertices.
@@ -225,7 +240,7 @@ private:
 
 Model loadObj(const std::filesystem::path& path, Mended& mended) {
   const std::string text = plainText(readBytes(path, std::uint64_t{1} << 34));
-  const std::vector<std::size_t> unreadable = unreadableVertices(text);
+  const VertexLines vertexLines = vertexLinesOf(text);
   std::istringstream stream(text);
   Model model;
   ObjText said;
@@ -235,7 +250,7 @@ Model loadObj(const std::filesystem::path& path, Mended& mended) {
   if (!tinyobj::LoadObjWithCallback(stream, callbacks(), &said, &libraries, &warnings, &errors)) {
     fail("no OBJ that can be read ({}); export it again", errors);
   }
-  for (const std::size_t vertex : unreadable) {
+  for (const std::size_t vertex : vertexLines.unreadable) {
     if (vertex < said.positions.size()) {
       said.positions[vertex] = glm::vec3(std::numeric_limits<float>::quiet_NaN());
     }
@@ -245,6 +260,9 @@ Model loadObj(const std::filesystem::path& path, Mended& mended) {
          said.positions.size());
   }
   libraries.convert(path.parent_path(), model);
+  if (vertexLines.coloured) {
+    model.warnings.push_back("Passed over: the vertices' colours.");
+  }
   for (const auto& [name, uses] : said.unknownNames) {
     model.warnings.push_back(fmt::format("No library has the material \"{}\": the object's own is used.", name));
   }

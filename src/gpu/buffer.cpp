@@ -24,17 +24,29 @@ vk::MemoryPropertyFlags propertiesOf(const Device::Impl& device, std::uint32_t a
   return Property::eHostVisible | Property::eHostCoherent;
 }
 
+vk::BufferUsageFlags usageOf(BufferUse use) {
+  using Usage = vk::BufferUsageFlagBits;
+  const vk::BufferUsageFlags all =
+      Usage::eStorageBuffer | Usage::eShaderDeviceAddress | Usage::eTransferSrc | Usage::eTransferDst;
+  switch (use) {
+  case BufferUse::Data:
+    return all;
+  case BufferUse::RayGeometry:
+    return all | Usage::eAccelerationStructureBuildInputReadOnlyKHR;
+  case BufferUse::RayTree:
+    return all | Usage::eAccelerationStructureStorageKHR;
+  }
+  return all;
+}
+
 } // namespace
 
-RawBuffer::RawBuffer(const Device& device, std::size_t bytes, Memory memory)
+RawBuffer::RawBuffer(const Device& device, std::size_t bytes, Memory memory, BufferUse use)
     : impl_(std::make_unique<Impl>()), bytes_(bytes) {
-  using Usage = vk::BufferUsageFlagBits;
   Device::Impl& owner = device.impl();
   impl_->device = &owner;
   const std::size_t size = std::max<std::size_t>(bytes, 4);
-  impl_->buffer = vk::raii::Buffer(
-      owner.device,
-      {{}, size, Usage::eStorageBuffer | Usage::eShaderDeviceAddress | Usage::eTransferSrc | Usage::eTransferDst});
+  impl_->buffer = vk::raii::Buffer(owner.device, {{}, size, usageOf(use)});
   const vk::MemoryRequirements need = impl_->buffer.getMemoryRequirements();
   const vk::MemoryPropertyFlags wanted = propertiesOf(owner, need.memoryTypeBits, memory);
   impl_->memory = owner.allocate(need, wanted, true);

@@ -14,12 +14,19 @@ namespace tyndall::gpu {
 /// Where a buffer lives. Host memory can be mapped and is what the device's results are read from.
 enum class Memory { Device, Host };
 
+/// What a buffer holds; the last two only on devices that have ray queries.
+enum class BufferUse {
+  Data,
+  RayGeometry, ///< what acceleration structures are built from
+  RayTree      ///< an acceleration structure
+};
+
 /// Bytes on the device, reached by address.
 class RawBuffer {
 public:
   RawBuffer();
   /// @throws Error on exhausted memory, with the bytes asked for and what to do.
-  RawBuffer(const Device& device, std::size_t bytes, Memory memory);
+  RawBuffer(const Device& device, std::size_t bytes, Memory memory, BufferUse use = BufferUse::Data);
   RawBuffer(RawBuffer&&) noexcept;
   RawBuffer& operator=(RawBuffer&&) noexcept;
   ~RawBuffer();
@@ -33,6 +40,7 @@ public:
   void fillZero();
 
   struct Impl;
+  Impl& impl() const { return *impl_; }
 
 private:
   std::unique_ptr<Impl> impl_;

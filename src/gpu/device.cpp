@@ -55,7 +55,7 @@ std::uint32_t computeFamily(const vk::raii::PhysicalDevice& physical) {
   fail("the Vulkan device has no compute queue");
 }
 
-vk::raii::Device makeDevice(const vk::raii::PhysicalDevice& physical, std::uint32_t family) {
+vk::raii::Device makeDevice(const vk::raii::PhysicalDevice& physical, std::uint32_t family, bool rayQuery) {
   const float priority = 1.0f;
   const vk::DeviceQueueCreateInfo queue({}, family, 1, &priority);
   vk::PhysicalDeviceVulkan13Features v13;
@@ -67,13 +67,24 @@ vk::raii::Device makeDevice(const vk::raii::PhysicalDevice& physical, std::uint3
   v12.pNext = &v13;
   vk::DeviceCreateInfo info({}, queue);
   info.pNext = &v12;
+  vk::PhysicalDeviceRayQueryFeaturesKHR queries(VK_TRUE);
+  vk::PhysicalDeviceAccelerationStructureFeaturesKHR structures(VK_TRUE);
+  if (rayQuery) {
+    info.setPEnabledExtensionNames(kRayQueryExtensions);
+    structures.pNext = &queries;
+    v13.pNext = &structures;
+  }
   return {physical, info};
 }
 
-vk::raii::DescriptorSetLayout makeAtlasLayout(const vk::raii::Device& device) {
-  std::array<vk::DescriptorSetLayoutBinding, 3> bindings;
-  for (std::uint32_t i = 0; i < bindings.size(); ++i) {
-    bindings[i] = {i, vk::DescriptorType::eSampledImage, 1, vk::ShaderStageFlagBits::eCompute};
+vk::raii::DescriptorSetLayout makeSetLayout(const vk::raii::Device& device, bool rayQuery) {
+  std::vector<vk::DescriptorSetLayoutBinding> bindings;
+  for (std::uint32_t i = 0; i < kAtlasImages; ++i) {
+    bindings.emplace_back(i, vk::DescriptorType::eSampledImage, 1, vk::ShaderStageFlagBits::eCompute);
+  }
+  if (rayQuery) {
+    bindings.emplace_back(kRayTreeBinding, vk::DescriptorType::eAccelerationStructureKHR, 1,
+                          vk::ShaderStageFlagBits::eCompute);
   }
   return {device, vk::DescriptorSetLayoutCreateInfo({}, bindings)};
 }
@@ -106,10 +117,10 @@ Device::Device(const DeviceOptions& options) : impl_(std::make_unique<Impl>()) {
   impl_->physical = physicals[impl_->info.index];
   impl_->memory = impl_->physical.getMemoryProperties();
   const std::uint32_t family = computeFamily(impl_->physical);
-  impl_->device = makeDevice(impl_->physical, family);
+  impl_->device = makeDevice(impl_->physical, family, impl_->info.rayQuery);
   impl_->queue = impl_->device.getQueue(family, 0);
   impl_->pool = vk::raii::CommandPool(impl_->device, {vk::CommandPoolCreateFlagBits::eTransient, family});
-  impl_->atlasLayout = makeAtlasLayout(impl_->device);
+  impl_->setLayout = makeSetLayout(impl_->device, impl_->info.rayQuery);
   impl_->cacheFile = cacheFileFor(options.pipelineCache, impl_->physical);
   const std::vector<char> cached = readCache(impl_->cacheFile);
   impl_->cache = vk::raii::PipelineCache(impl_->device, {{}, cached.size(), cached.data()});

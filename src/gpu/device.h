@@ -21,6 +21,7 @@ struct DeviceInfo {
   std::uint32_t maxImage3D = 0;     ///< texels per edge
   std::uint64_t memoryBytes = 0;    ///< largest device-local heap
   std::uint64_t maxAllocation = 0;  ///< bytes of one allocation
+  bool rayQuery = false;            ///< acceleration structures and ray queries in compute kernels
   std::vector<std::string> missing; ///< what Tyndall needs and the device lacks; empty = usable
 
   bool usable() const { return missing.empty(); }

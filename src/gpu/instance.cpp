@@ -76,6 +76,22 @@ std::vector<std::string> missingFeatures(const vk::raii::PhysicalDevice& physica
   return missing;
 }
 
+bool hasRayQuery(const vk::raii::PhysicalDevice& physical) {
+  const std::vector<vk::ExtensionProperties> extensions = physical.enumerateDeviceExtensionProperties();
+  const bool there = std::all_of(kRayQueryExtensions.begin(), kRayQueryExtensions.end(), [&](const std::string& name) {
+    return std::any_of(extensions.begin(), extensions.end(),
+                       [&](const vk::ExtensionProperties& each) { return name == each.extensionName; });
+  });
+  if (!there) {
+    return false;
+  }
+  const auto chain =
+      physical.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceAccelerationStructureFeaturesKHR,
+                            vk::PhysicalDeviceRayQueryFeaturesKHR>();
+  return chain.get<vk::PhysicalDeviceAccelerationStructureFeaturesKHR>().accelerationStructure == VK_TRUE &&
+         chain.get<vk::PhysicalDeviceRayQueryFeaturesKHR>().rayQuery == VK_TRUE;
+}
+
 } // namespace
 
 std::unique_ptr<Instance> makeInstance(bool validation) {
@@ -129,6 +145,7 @@ DeviceInfo describe(const vk::raii::PhysicalDevice& physical, std::uint32_t inde
     }
   }
   info.missing = missingFeatures(physical);
+  info.rayQuery = info.usable() && hasRayQuery(physical);
   return info;
 }
 

@@ -12,9 +12,12 @@ namespace {
 
 constexpr std::uint32_t kPushBytes = 128; // what every Vulkan device allows
 
-vk::raii::DescriptorPool makePool(const vk::raii::Device& device) {
-  const vk::DescriptorPoolSize size(vk::DescriptorType::eSampledImage, 3);
-  return {device, {vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, size}};
+vk::raii::DescriptorPool makePool(const Device::Impl& device) {
+  std::vector<vk::DescriptorPoolSize> sizes{{vk::DescriptorType::eSampledImage, kAtlasImages}};
+  if (device.info.rayQuery) { // the layout has it, used or not
+    sizes.emplace_back(vk::DescriptorType::eAccelerationStructureKHR, 1);
+  }
+  return {device.device, {vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, sizes}};
 }
 
 /// A single texel for each format that the scene lacks: descriptors that are never read must still be bound, partially
@@ -42,6 +45,13 @@ void bindImages(const vk::raii::Device& device, vk::DescriptorSet set, const Atl
   }
 }
 
+void bindRays(const vk::raii::Device& device, vk::DescriptorSet set, const AccelerationStructure& rays) {
+  const vk::WriteDescriptorSetAccelerationStructureKHR structure(*rays.impl().structure);
+  vk::WriteDescriptorSet write(set, kRayTreeBinding, 0, 1, vk::DescriptorType::eAccelerationStructureKHR);
+  write.pNext = &structure;
+  device.updateDescriptorSets(write, {});
+}
+
 } // namespace
 
 struct Kernel::Impl {
@@ -54,20 +64,23 @@ struct Kernel::Impl {
 };
 
 Kernel::Kernel(const Device& device, std::span<const std::uint32_t> spirv, std::span<const SpecEntry> spec,
-               const AtlasImages& images)
+               const AtlasImages& images, const AccelerationStructure* rays)
     : impl_(std::make_unique<Impl>()), spirvBytes_(spirv.size_bytes()) {
   const SpirvInfo info = readSpirv(spirv);
   workgroupSize_ = info.workgroupSize;
   Device::Impl& owner = device.impl();
   impl_->device = &owner;
-  impl_->pool = makePool(owner.device);
-  impl_->set = std::move(vk::raii::DescriptorSets(owner.device, {*impl_->pool, *owner.atlasLayout}).front());
+  impl_->pool = makePool(owner);
+  impl_->set = std::move(vk::raii::DescriptorSets(owner.device, {*impl_->pool, *owner.setLayout}).front());
   if (info.usesImages) {
     impl_->standIns = makeStandIns(device, images);
     bindImages(owner.device, *impl_->set, images, impl_->standIns);
   }
+  if (rays != nullptr) {
+    bindRays(owner.device, *impl_->set, *rays);
+  }
   const vk::PushConstantRange push(vk::ShaderStageFlagBits::eCompute, 0, kPushBytes);
-  impl_->layout = vk::raii::PipelineLayout(owner.device, {{}, *owner.atlasLayout, push});
+  impl_->layout = vk::raii::PipelineLayout(owner.device, {{}, *owner.setLayout, push});
 
   std::vector<vk::SpecializationMapEntry> entries;
   std::vector<std::uint32_t> values;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "gpu/acceleration.h"
 #include "gpu/buffer.h"
 #include "gpu/image.h"
 
@@ -42,8 +43,9 @@ struct AtlasImages {
 /// A compute pipeline. Workgroup size is what the SPIR-V states (x only; y = z = 1).
 class Kernel {
 public:
+  /// @param rays what the kernel's ray queries go through; it must outlive the kernel. Null: the kernel has none.
   Kernel(const Device& device, std::span<const std::uint32_t> spirv, std::span<const SpecEntry> spec,
-         const AtlasImages& images = {});
+         const AtlasImages& images = {}, const AccelerationStructure* rays = nullptr);
   Kernel(Kernel&&) noexcept;
   ~Kernel();
 

@@ -1,16 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "gpu/acceleration.h"
 #include "gpu/buffer.h"
 #include "gpu/device.h"
 #include "gpu/image.h"
 
 #include <vulkan/vulkan_raii.hpp>
 
+#include <array>
 #include <functional>
 
 /// Private to src/gpu: the Vulkan objects behind the public classes.
 namespace tyndall::gpu {
+
+/// What a device must have for ray queries, beside their features.
+inline constexpr std::array kRayQueryExtensions{VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
+                                                VK_KHR_RAY_QUERY_EXTENSION_NAME,
+                                                VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME};
+
+/// Bindings of the one descriptor set: images (shaders/medium/atlas.glsl), then on devices that have ray queries the
+/// acceleration structure (shaders/geometry/ray_query.glsl).
+inline constexpr std::uint32_t kAtlasImages = 3;
+inline constexpr std::uint32_t kRayTreeBinding = 3;
 
 struct Instance {
   vk::raii::Context context;
@@ -30,7 +42,7 @@ struct Device::Impl {
   vk::raii::Queue queue{nullptr};
   vk::raii::CommandPool pool{nullptr};
   vk::raii::PipelineCache cache{nullptr};
-  vk::raii::DescriptorSetLayout atlasLayout{nullptr};
+  vk::raii::DescriptorSetLayout setLayout{nullptr};
   vk::PhysicalDeviceMemoryProperties memory;
   std::filesystem::path cacheFile;
   DeviceInfo info;
@@ -50,6 +62,12 @@ struct RawBuffer::Impl {
   vk::raii::Buffer buffer{nullptr};
   vk::raii::DeviceMemory memory{nullptr};
   std::uint64_t bytes = 0;
+};
+
+struct AccelerationStructure::Impl {
+  RawBuffer storage;
+  vk::raii::AccelerationStructureKHR structure{nullptr};
+  std::uint64_t address = 0;
 };
 
 struct Image3D::Impl {

@@ -16,9 +16,14 @@ float oneMinusCos(double degrees) {
   return static_cast<float>(2.0 * sine * sine);
 }
 
+/// A sphere counts as small up to this share of the scene's radius: seen from within it, distances aimed at its centre
+/// would miss its near side.
+constexpr double kSmallRadius = 0.01;
+
 class EmitterPacker {
 public:
-  EmitterPacker(const glm::dvec3& centre, PackedEmitters& out) : centre_(centre), out_(out) {}
+  EmitterPacker(const Bounds3& bounds, PackedEmitters& out)
+      : centre_(bounds.centre()), smallRadius_(kSmallRadius * 0.5 * glm::length(bounds.size())), out_(out) {}
 
   void addSurfaces(const PackedSurfaces& surfaces) {
     for (std::size_t i = 0; i < surfaces.emitters.size(); ++i) {
@@ -71,9 +76,18 @@ public:
   void finish() { out_.nodes = light::buildLightTree(out_.emitters, bounds_).nodes; }
 
 private:
-  void add(const interop::Emitter& emitter, double scale) {
+  bool isSmall(const interop::Emitter& emitter) const {
+    return emitter.kind == interop::kEmitterPoint || emitter.kind == interop::kEmitterSpot ||
+           (emitter.kind == interop::kEmitterSphere && double(emitter.edge1.x) <= smallRadius_);
+  }
+
+  void add(interop::Emitter emitter, double scale) {
     light::LightBounds bounds = light::lightBounds(emitter);
     bounds.power *= scale;
+    if (isSmall(emitter)) {
+      emitter.flags |= interop::kEmitterSmall;
+      out_.small = true;
+    }
     out_.emitters.push_back(emitter);
     bounds_.push_back(bounds);
   }
@@ -111,7 +125,8 @@ private:
     return transformed(world, local);
   }
 
-  const glm::dvec3& centre_;
+  glm::dvec3 centre_;
+  double smallRadius_;
   PackedEmitters& out_;
   std::vector<light::LightBounds> bounds_;
 };
@@ -119,9 +134,9 @@ private:
 } // namespace
 
 PackedEmitters packEmitters(const scene::Scene& scene, const PackedSurfaces& surfaces, PackedMedia& media,
-                            const glm::dvec3& centre) {
+                            const Bounds3& bounds) {
   PackedEmitters out;
-  EmitterPacker packer(centre, out);
+  EmitterPacker packer(bounds, out);
   packer.addSurfaces(surfaces);
   for (const scene::NamedLight& named : scene.lights) {
     packer.addLight(named.light);

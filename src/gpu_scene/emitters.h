@@ -14,10 +14,12 @@ struct PackedEmitters {
   std::vector<interop::Emitter> emitters;
   std::vector<interop::LightTreeNode> nodes;
   bool volumes = false; ///< emissive media are among them
+  bool small = false;   ///< points, spots or small spheres are among them
 };
 
 /// Writes Medium::emitter of the media that become lights.
+/// @param bounds of the scene; device coordinates are relative to their centre.
 PackedEmitters packEmitters(const scene::Scene& scene, const PackedSurfaces& surfaces, PackedMedia& media,
-                            const glm::dvec3& centre);
+                            const Bounds3& bounds);
 
 } // namespace tyndall::gpu_scene

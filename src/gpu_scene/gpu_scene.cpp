@@ -37,6 +37,7 @@ void addPathFeatures(const scene::Scene& scene, const PackedMedia& media, const 
       std::any_of(surfaces.materials.begin(), surfaces.materials.end(),
                   [](const interop::Material& material) { return material.emission != glm::vec3(0.0f); });
   features.volumeEmitters = emitters.volumes;
+  features.aimed = emitters.small && media.homogeneousCount > 0;
   features.lens = scene.camera.kind == scene::Camera::Kind::Perspective && scene.camera.lensRadius > 0.0;
 }
 
@@ -64,7 +65,7 @@ Features featuresOf(const scene::Scene& scene, const PackedMedia& media, const P
 } // namespace
 
 GpuScene::GpuScene(const gpu::Device& device, const scene::Scene& scene, const VolumeSet& volumes, GridLayout layout)
-    : layout_(layout), bounds_(sceneBounds(scene, volumes)), centre_(bounds_.centre()),
+    : layout_(layout), imageSize_(scene.film.size), bounds_(sceneBounds(scene, volumes)), centre_(bounds_.centre()),
       packed_(packMedia(scene, volumes, centre_)), lights_(packLights(scene, bounds_, centre_)) {
   if (layout == GridLayout::Paths) {
     addSurfaces(device, scene, volumes.meshes);
@@ -128,7 +129,7 @@ void GpuScene::addSurfaces(const gpu::Device& device, const scene::Scene& scene,
       packed_.media[surfaces_.interiors[i].medium].interiors |= 1u << i;
     }
   }
-  emitters_ = packEmitters(scene, surfaces_, packed_, centre_);
+  emitters_ = packEmitters(scene, surfaces_, packed_, bounds_);
   surfaceBuffers_ = SurfaceBuffers(device, surfaces_, emitters_);
   // Light selection of paths: emitters by the tree, the rest by their own shares.
   if (!emitters_.emitters.empty() && !lights_.distant.empty()) {

@@ -42,6 +42,7 @@ struct Features {
   bool emitters = false;
   bool emissiveSurfaces = false;
   bool volumeEmitters = false;
+  bool aimed = false; ///< small lights in homogeneous media
   bool lens = false;
   bool mediumTree = false; ///< many media with grids: a tree of their boxes is walked
   bool overlapOfGrids = false; ///< more than one medium with a density grid: delta tracking, see tracker/walk.glsl
@@ -78,6 +79,7 @@ public:
   const PackedEmitters& emitters() const { return emitters_; }
   /// Bytes of surfaces, textures and light tree in device memory.
   std::size_t surfaceBytes() const { return surfaceBuffers_.bytes(); }
+  glm::uvec2 imageSize() const { return imageSize_; }
   /// Of everything bounded, in world space.
   const Bounds3& bounds() const { return bounds_; }
   /// World-space point that device coordinates are relative to.
@@ -89,6 +91,7 @@ private:
   void uploadLights(const gpu::Device& device);
 
   GridLayout layout_;
+  glm::uvec2 imageSize_;
   Bounds3 bounds_;
   glm::dvec3 centre_{0.0};
   PackedMedia packed_;

@@ -4,6 +4,7 @@
 #include "gpu_scene/gpu_scene.h"
 #include "interop/pixel_sums.h"
 #include "passes/path/path_io.h"
+#include "render/ray_choice.h"
 
 #include <cstdint>
 #include <map>
@@ -37,6 +38,8 @@ struct EstimatorOptions {
   std::uint32_t lightSelection = interop::kSelectTree; ///< paths: interop::kSelect*
   std::uint32_t techniques =
       interop::kTechniqueLight | interop::kTechniqueDirection; ///< paths: interop::kTechnique*, one or both
+  RayCaster rays = RayCaster::Auto; ///< paths
+  bool aim = true; ///< paths: distances in homogeneous media drawn towards small lights as well
   std::uint32_t plantedBug = 0;                                ///< tests only: interop::kBug*
 };
 

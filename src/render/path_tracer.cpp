@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/path_tracer.h"
 
+#include "render/pixel_order.h"
+
 #include <algorithm>
+#include <chrono>
 
 namespace tyndall::render {
 namespace {
 
 /// What a ray through the surfaces counts for.
 constexpr std::uint32_t kCastSteps = 16;
+/// Of the picture, for timing: they fill a GPU for some milliseconds.
+constexpr std::size_t kProbePixels = 65536;
 
 } // namespace
 
@@ -38,20 +43,65 @@ passes::PathSpec pathSpecFor(const gpu_scene::Features& features, const Estimato
   spec.kAovs = options.aovs;
   spec.kLightSelection = options.lightSelection;
   spec.kTechniques = options.techniques;
+  // Aiming is light sampling's: where one technique alone is asked for, as tests do, each stays what it is.
+  spec.kAimed =
+      features.aimed && options.aim && options.techniques == (interop::kTechniqueLight | interop::kTechniqueDirection);
   spec.kMediumTree = features.mediumTree;
   spec.kPlantedBug = options.plantedBug;
   return spec;
 }
 
 PathTracer::PathTracer(const gpu::Device& device, const gpu_scene::GpuScene& scene, const EstimatorOptions& options)
-    : scene_(scene), spec_(pathSpecFor(scene.features(), options)), pass_(device, spec_, scene.images()),
-      runner_(device, options) {}
+    : scene_(scene), spec_(pathSpecFor(scene.features(), options)), runner_(device, options) {
+  choosePass(device, options.rays);
+}
+
+void PathTracer::choosePass(const gpu::Device& device, RayCaster wanted) {
+  std::unique_ptr<passes::PathPass> tree;
+  const auto makeTreePass = [&] { tree = std::make_unique<passes::PathPass>(device, spec_, scene_.images()); };
+  rayChoice_ = chooseRays(wanted, device, scene_, [&](bool query) {
+    if (query && !pass_) {
+      makeQueryPass(device);
+    } else if (!query && !tree) {
+      makeTreePass();
+    }
+    return probeSeconds(query ? *pass_ : *tree);
+  });
+  if (rayChoice_.query) {
+    if (!pass_) {
+      makeQueryPass(device);
+    }
+    return;
+  }
+  if (!tree) {
+    makeTreePass();
+  }
+  pass_ = std::move(tree);
+  rays_.reset();
+}
+
+void PathTracer::makeQueryPass(const gpu::Device& device) {
+  rays_.emplace(device, scene_.surfaces());
+  pass_ = std::make_unique<passes::PathPass>(device, spec_, scene_.images(), &rays_->top());
+}
+
+std::uint32_t PathTracer::stageCost() const { return kCastSteps + scene_.loopCount(); }
+
+/// Of a sample each of pixels from all over the picture.
+double PathTracer::probeSeconds(const passes::PathPass& pass) {
+  std::vector<std::uint32_t> pixels = dispatchOrder({glm::uvec2(0), scene_.imageSize()});
+  pixels.resize(std::min({pixels.size(), std::size_t{chunkPixels()}, kProbePixels}));
+  const auto start = std::chrono::steady_clock::now();
+  runner_.run(pass, scene_.ptr(), pixels, {0, 1}, 0, stageCost(), [](const interop::PathCounters&) {});
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
 
 std::map<std::string, std::string> PathTracer::pipeline() const {
   std::map<std::string, std::string> result;
 #define SPEC(type, name, id, value) result.insert(specText(#name, spec_.name));
   TYNDALL_PATH_SPEC(SPEC)
 #undef SPEC
+  result.insert({"Rays", rayChoice_.reason});
   return result;
 }
 
@@ -70,7 +120,7 @@ void PathTracer::collect(const interop::PathCounters& counters) {
 std::span<const interop::PixelSums> PathTracer::run(std::span<const std::uint32_t> pixels, SampleRange samples,
                                                     std::uint32_t seed) {
   totals_.samples += std::uint64_t(pixels.size()) * samples.count;
-  return runner_.run(pass_, scene_.ptr(), pixels, samples, seed, kCastSteps + scene_.loopCount(),
+  return runner_.run(*pass_, scene_.ptr(), pixels, samples, seed, stageCost(),
                      [this](const interop::PathCounters& counters) { collect(counters); });
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "gpu_scene/ray_query.h"
 #include "passes/path/path_pass.h"
 #include "render/batch_runner.h"
 
@@ -17,15 +18,21 @@ public:
   std::span<const interop::PixelSums> run(std::span<const std::uint32_t> pixels, SampleRange samples,
                                           std::uint32_t seed) override;
   std::uint32_t chunkPixels() const override { return runner_.chunkPixels(); }
-  std::size_t kernelBytes() const override { return pass_.kernel().spirvBytes(); }
+  std::size_t kernelBytes() const override { return pass_->kernel().spirvBytes(); }
   std::map<std::string, std::string> pipeline() const override;
 
 private:
+  void choosePass(const gpu::Device& device, RayCaster wanted);
+  void makeQueryPass(const gpu::Device& device);
+  double probeSeconds(const passes::PathPass& pass);
+  std::uint32_t stageCost() const;
   void collect(const interop::PathCounters& counters);
 
   const gpu_scene::GpuScene& scene_;
   passes::PathSpec spec_;
-  passes::PathPass pass_;
+  std::optional<gpu_scene::RayQueryTree> rays_; ///< of the pass with ray queries
+  std::unique_ptr<passes::PathPass> pass_;
+  RayChoice rayChoice_;
   BatchRunner<passes::PathPass, interop::PathInputs, interop::PathState, interop::PathCounters> runner_;
 };
 

@@ -108,6 +108,27 @@ const BadInput kScenes[] = {
 };
 INSTANTIATE_TEST_SUITE_P(Scenes, BadInputs, testing::ValuesIn(kScenes));
 
+const BadInput kSurfaces[] = {
+    {"render {in}/flat.obj", "flat.obj: is a mesh", "\"objects\""},
+    {"check {in}/flat.obj", "flat.obj: is a mesh", "\"objects\""},
+    {"info {in}/flat.obj", "flat.obj: is a mesh", "\"objects\""},
+    {"render {in}/missing_mesh.json", "missing_mesh.json:1:", "did you mean \"flat.obj\""},
+    {"render {in}/flat_mesh.json", "flat.obj", "export it with its surfaces"},
+    {"render {in}/empty_mesh.json", "empty.obj", "export it again"},
+    {"render {in}/text_mesh.json", "text.ply", "check the file"},
+    {"render {in}/volume_mesh.json", "plain.vdb", ".gltf, .glb, .obj or .ply"},
+    {"render {in}/parallel_quad.json", "objects.0.edge_v", "not parallel"},
+    {"render {in}/unknown_material.json", "objects.0.material", "did you mean \"glass\""},
+    {"render {in}/surfaces.json --estimator march", "--estimator march", "--estimator path"},
+    {"render {in}/surfaces.json --estimator tracking", "--estimator tracking", "--estimator path"},
+    {"render {in}/surfaces.json --preview", "--preview", "leave --preview away"},
+    {"render {in}/sound.json --depth 2 --estimator march", "--estimator march", "--estimator path"},
+    {"check {in}/missing_mesh.json", "objects.0.file", "did you mean \"flat.obj\""},
+    {"check {in}/flat_mesh.json", "flat_mesh.json:1:39: error: objects.0.file", "export it with its surfaces"},
+    {"check {in}/text_mesh.json", "objects.0.file", "check the file"},
+};
+INSTANTIATE_TEST_SUITE_P(Surfaces, BadInputs, testing::ValuesIn(kSurfaces));
+
 const BadInput kOptions[] = {
     {"render {in}/sound.json -o nowhere/out.exr", "nowhere", "create it"},
     {"render {in}/sound.json -o {in}/folder.exr", "folder.exr", "name a file"},
@@ -138,7 +159,8 @@ const BadInput kOptions[] = {
     {"render {in}/sound.json --set film", "--set film", "film.exposure=1"},
     {"render {in}/sound.json --aov depht", "depht", "depth"},
     {"render {in}/sound.json --device nosuch", "nosuch", "not selected"},
-    {"render {in}/sound.json --depth 7", "--depth 7", "give 1"},
+    {"render {in}/sound.json --depth some", "--depth some", "unlimited"},
+    {"render {in}/sound.json --depth 65537", "--depth 65537", "65536"},
     {"render {in}/sound.json --tracker fast", "--tracker fast", "weighted"},
     {"render {in}/sound.json --estimator fast", "--estimator fast", "march"},
     {"render {in}/sound.json --preview --estimator tracking", "--preview", "leave"},

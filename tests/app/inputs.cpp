@@ -56,6 +56,28 @@ void writeScenes(const fs::path& folder) {
   scene("text_map", withLight(R"({"type": "map", "file": "text.exr"})"));
 }
 
+std::string withObject(const std::string& object) { return R"({"objects": [)" + object + "],\n" + kLamp + "}\n"; }
+
+std::string withMesh(const std::string& file) { return withObject(R"({"type": "mesh", "file": ")" + file + "\"}"); }
+
+void writeSurfaces(const fs::path& folder) {
+  writeFile(folder / "flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n"); // three points on a line
+  writeFile(folder / "empty.obj", "");
+  writeFile(folder / "text.ply", "no mesh\n");
+  const auto scene = [&](const std::string& name, const std::string& text) {
+    writeFile(folder / (name + ".json"), text);
+  };
+  scene("surfaces", withObject(R"({"type": "quad"})"));
+  scene("missing_mesh", withMesh("flta.obj"));
+  scene("flat_mesh", withMesh("flat.obj"));
+  scene("empty_mesh", withMesh("empty.obj"));
+  scene("text_mesh", withMesh("text.ply"));
+  scene("volume_mesh", withMesh("plain.vdb"));
+  scene("parallel_quad", withObject(R"({"type": "quad", "edge_u": [1, 0, 0], "edge_v": [-2, 0, 0]})"));
+  scene("unknown_material", R"({"materials": [{"name": "glass", "type": "dielectric"}], "objects": [)"
+                            R"({"type": "sphere", "material": "galss"}]})");
+}
+
 void writePictures(const fs::path& folder) {
   const auto picture = [&](const std::string& name, glm::uvec2 size) {
     film::Image image{
@@ -92,6 +114,7 @@ const TemporaryFolder& madeFolder() {
     writeFixtures(folder.path());
     writeMalformed(folder.path());
     writeScenes(folder.path());
+    writeSurfaces(folder.path());
     writePictures(folder.path());
     writePart(folder / "left.part", 0, "aa");
     writePart(folder / "right.part", 4, "aa");

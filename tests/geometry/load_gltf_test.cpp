@@ -58,6 +58,16 @@ TEST(Gltf, StripsAndFansWindAsTheStandardSays) {
   EXPECT_THAT(test::refusal(folder / "lines.gltf"), HasSubstr("1 primitives of points or lines were left out"));
 }
 
+/// Four corners without indices are a triangle and one corner over.
+TEST(Gltf, ATriangleWithoutAllCornersAndColoursOfVerticesAreNamed) {
+  const test::TemporaryFolder folder;
+  const Model model = loadSquare(
+      folder.path(), R"(,"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0,"COLOR_0":0}}]}])");
+  EXPECT_EQ(model.meshes[0].triangles, (std::vector<glm::uvec3>{{0, 1, 2}}));
+  EXPECT_EQ(warnings(model), "Passed over: the vertices' colours.\n"
+                             "1 triangles that lack a corner at their primitive's end were left out.\n");
+}
+
 TEST(Gltf, OneMeshInSeveralNodesStaysOne) {
   const test::TemporaryFolder folder;
   std::string rest = squareMesh();

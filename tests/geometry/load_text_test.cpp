@@ -89,6 +89,14 @@ TEST(Obj, WhatCannotBeDrawnIsCountedOrRefused) {
   EXPECT_THAT(test::refusal(folder / "points.obj"), HasSubstr("points.obj: it holds 4 points and no faces"));
 }
 
+TEST(Obj, ColoursOfVerticesAreNamed) {
+  const test::TemporaryFolder folder;
+  const std::string face = "f 1 2 3\n";
+  EXPECT_EQ(warnings(obj(folder, "v 0 0 0 1 # a weight 2 3\nv 1 0 0\nv 0 1 0\n" + face)), "");
+  EXPECT_EQ(warnings(obj(folder, "v 0 0 0\nv 1 0 0 .5  .5 1 \nv 0 1 0\n" + face)),
+            "Passed over: the vertices' colours.\n");
+}
+
 /// An L turned out of its plane, as one polygon: its reflex corner makes a plain fan wrong.
 TEST(Polygons, ConcaveOnesKeepTheirAreaAndWinding) {
   const std::vector<glm::dvec2> outline{{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}};

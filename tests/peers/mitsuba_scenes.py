@@ -138,7 +138,7 @@ def fog_room(build, _):
 
 def dark_room(build, _):
     """The room alone, three events at most: how both count depth."""
-    return build.pair(room(build), 64, integrator="path", depth=3)
+    return build.pair(room(build), 128, integrator="path", depth=3)
 
 
 def noise(shape):
@@ -200,7 +200,7 @@ def metal_and_glass(build, _, roughness=0.3):
     build.quad("lamp", [-2, 3, -1.5], [4, 0, 0], [0, 0, 3])
     sky = [0.2, 0.25, 0.3]
     build.light({"type": "constant", "radiance": sky}, {"type": "constant", "radiance": build.power(sky)})
-    return build.pair(([0, 1.8, 5.2], [0, 0.6, 0], 38), 128, integrator="path")
+    return build.pair(([0, 1.8, 5.2], [0, 0.6, 0], 38), 512, integrator="path")
 
 
 def tea(build, _):
@@ -232,7 +232,7 @@ def spot_in_haze(build, _):
     to_world = build.mi.ScalarTransform4f.look_at(origin=position, target=target, up=[0, 0, 1])
     theirs = {"type": "spot", "to_world": to_world, "cutoff_angle": angle, "beam_width": angle}
     build.light(ours, {**theirs, "intensity": build.power(intensity)})
-    return build.pair(([0, 1.6, 5.5], [0, 0.9, 0], 40), 64, integrator="volpathmis")
+    return build.pair(([0, 1.6, 5.5], [0, 0.9, 0], 40), 192, integrator="volpathmis")
 
 
 SCENES = {

@@ -4,6 +4,7 @@
 #include "film/checkpoint.h"
 #include "film/merge.h"
 #include "render/film_fixture.h"
+#include "support/path_scenes.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -22,9 +23,30 @@ namespace {
 
 constexpr glm::uvec2 kSize{40, 24};
 
+/// For paths: surfaces that reflect, refract, shine, have holes or hold a medium; and a lens.
+void addSurfaces(PathScene& test) {
+  test.depth(6);
+  test.scene.camera.lensRadius = 0.02;
+  test.scene.camera.focusDistance = 4.0;
+  test.material("floor", MaterialId::Diffuse, 0.6);
+  test.material("glass", MaterialId::Dielectric, 0.9);
+  test.material("container", MaterialId::Null);
+  geometry::Material& pane = test.material("pane", MaterialId::MetalRough, 0.7);
+  pane.opacity = 0.5;
+  pane.alpha = geometry::Alpha::Blend;
+  test.lamp("lamp", 3.0);
+  test.quad("floor", {-4.0, -1.2, 4.0}, {8.0, 0.0, 0.0}, {0.0, 0.0, -8.0});
+  test.quad("pane", {-1.4, -0.8, 0.2}, {0.8, 0.0, -0.3}, {0.0, 0.9, 0.0});
+  test.ball("glass", {-0.5, 0.5, 0.4}, 0.3);
+  test.ball("lamp", {-0.9, 0.9, -0.5}, 0.2);
+  test.crate("container", {0.2, -1.0, -0.2}, {1.0, -0.3, 0.7});
+  test.fill(1.5, 0.9).extinctionColour = {1.0, 0.5, 0.1};
+}
+
 /// Homogeneous and grid media, emission, every kind of light.
-TestScene everything() {
-  TestScene test(kSize);
+TestScene everything(render::Method method) {
+  PathScene test(kSize);
+  test.scene.render.depth.reset();
   test.perspective({0.5, 0.7, 4.0}, {0.0, 0.0, 0.0}, 40.0);
   test.sphere({0.8, 0.0, 0.0}, 0.6, 0.7, 0.8);
   test.grid(spikyGrid({20, 24, 20}, 2, volume::Storage::Half, affineMaps().front().worldFromIndex), 2.0, 0.9).phase =
@@ -37,10 +59,13 @@ TestScene everything() {
   test.point({0.3, 1.5, 0.8}, 2.0);
   test.sun({0.2, -1.0, 0.3}, 1.0, 3.0);
   test.constant(0.2);
+  if (method == render::Method::Path) {
+    addSurfaces(test);
+  }
   return test;
 }
 
-constexpr render::Method kMethods[] = {render::Method::Tracking, render::Method::March};
+constexpr render::Method kMethods[] = {render::Method::Tracking, render::Method::March, render::Method::Path};
 
 render::RenderOptions options(render::Method method, std::uint32_t samples = 40) {
   render::RenderOptions result;
@@ -80,14 +105,15 @@ std::uint64_t hashOf(const film::Film& film) {
 std::uint64_t referenceHash(render::Method method) {
   static std::map<render::Method, std::uint64_t> hashes;
   if (!hashes.contains(method)) {
-    hashes[method] = hashOf(renderFilm(everything(), options(method)));
+    hashes[method] = hashOf(renderFilm(everything(method), options(method)));
   }
   return hashes[method];
 }
 
-/// Each test for both methods.
+/// Each test for each method.
 class Determinism : public testing::TestWithParam<render::Method> {
 protected:
+  static TestScene everything() { return test::everything(GetParam()); }
   static render::RenderOptions options() { return test::options(GetParam()); }
   static std::uint64_t referenceHash() { return test::referenceHash(GetParam()); }
 };
@@ -105,15 +131,18 @@ TEST_P(Determinism, DispatchSizeHasNoSay) {
   EXPECT_NE(hashOf(renderFilm(everything(), other)), referenceHash());
 }
 
-/// Of tracking alone: the march has no such bound.
+/// The march has no such bound.
 TEST(StepBound, HasNoSay) {
-  for (const std::uint32_t bound : {8u, 100u, 1u << 20}) {
-    render::RenderOptions bounded = options(render::Method::Tracking);
-    bounded.estimator.stepBound = bound;
-    render::RenderReport report;
-    EXPECT_EQ(hashOf(renderFilm(everything(), bounded, &report)), referenceHash(render::Method::Tracking)) << bound;
-    if (bound < 1000) {
-      EXPECT_GT(report.totals.resumed, 0u) << bound;
+  for (const render::Method method : {render::Method::Tracking, render::Method::Path}) {
+    for (const std::uint32_t bound : {8u, 100u, 1u << 20}) {
+      render::RenderOptions bounded = options(method);
+      bounded.estimator.stepBound = bound;
+      render::RenderReport report;
+      EXPECT_EQ(hashOf(renderFilm(everything(method), bounded, &report)), referenceHash(method))
+          << render::methodName(method) << " " << bound;
+      if (bound < 1000) {
+        EXPECT_GT(report.totals.resumed, 0u) << render::methodName(method) << " " << bound;
+      }
     }
   }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a picture says about its own error: standard errors against the spread over seeds, stopping by error.
 #include "render/film_fixture.h"
-#include "support/render_fixture.h"
+#include "support/path_scenes.h"
 
 #include <gtest/gtest.h>
 
@@ -27,6 +27,19 @@ TestScene fog() {
   test.perspective({0.0, 0.0, 4.0}, {0.0, 0.0, 0.0}, 40.0);
   test.sphere(glm::dvec3(0.0), 1.0, 1.0, 0.9);
   test.point({0.3, 0.2, 0.4}, 1.0);
+  test.constant(0.3);
+  return test;
+}
+
+/// A floor, a lamp and fog.
+TestScene room() {
+  PathScene test({8, 8});
+  test.perspective({0.0, 0.3, 4.0}, {0.0, 0.0, 0.0}, 40.0);
+  test.material("floor", MaterialId::Diffuse, 0.6);
+  test.lamp("lamp", 4.0);
+  test.quad("floor", {-4.0, -1.0, 4.0}, {8.0, 0.0, 0.0}, {0.0, 0.0, -8.0});
+  test.ball("lamp", {0.4, 0.6, 0.0}, 0.3);
+  test.sphere(glm::dvec3(0.0), 1.0, 0.7, 0.9);
   test.constant(0.3);
   return test;
 }
@@ -59,6 +72,8 @@ TEST(ErrorBars, AgreeWithTheSpreadOfFiftySeeds) {
       EXPECT_NEAR(reported / spread, 1.0, 0.1) << render::methodName(method);
     }
   }
+  const auto [reported, spread] = reportedAndTrue(room(), 128, render::Method::Path);
+  EXPECT_NEAR(reported / spread, 1.0, 0.1) << "path";
 }
 
 /// Sums of squares over covered pixels and colours.

@@ -6,9 +6,6 @@
 #include "passes/bench/light_choice_io.h"
 
 layout(constant_id = 0) const uint kLightSelection = 0u; // kSelect*
-layout(constant_id = 1) const bool kChoose = true;       // false: the loop alone
-
-GPU_BUFFER(float)
 
 #include "light/tree.glsl"
 
@@ -28,8 +25,8 @@ void main() {
   receiver.twoSided = false;
   float sum = 0.0;
   [[dont_unroll]] for (uint choice = 0u; choice < io.choices; ++choice) {
-    const float xi = rngFloat(rng);
-    sum += kChoose ? chooseEmitter(io.emitters, receiver, xi, rng).pdf : xi;
+    const EmitterChoice chosen = chooseEmitter(io.emitters, receiver, rngFloat(rng), rng);
+    sum += chosen.pdf * float(chosen.emitter);
   }
   io.sums.at[i] = sum;
 }

@@ -3,6 +3,7 @@
 #ifndef TYNDALL_LIGHT_CHOICE_IO_H
 #define TYNDALL_LIGHT_CHOICE_IO_H
 
+#include "interop/basic.h"
 #include "interop/emitters.h"
 
 GPU_BEGIN

@@ -49,7 +49,7 @@ GlowPoint homogeneousGlow(ScenePtr scene, uint index, PathRay line, float first,
   const float uniformPdf = 1.0 / length;
   const float pdf = thick ? 0.5 * (uniformPdf + sigmaT * exp(-sigmaT * s) / collided) : uniformPdf;
   glow.t = from + s;
-  glow.inversePdf = 1.0 / pdf;
+  glow.inversePdf = stretch.z / pdf;
   return glow;
 }
 

@@ -7,11 +7,46 @@
 #include "medium/shape.glsl"
 #include "tracker/walk.glsl"
 
+// Of the refracting interiors in `mask` the one that decides the index of refraction: the highest priority, of equal
+// ones the first. kNoInterior without any.
+uint decidingInterior(SurfacesPtr surfaces, uint mask) {
+  uint deciding = kNoInterior;
+  uint priority = 0u;
+  [[dont_unroll]] while (mask != 0u) {
+    const uint bit = uint(findLSB(mask));
+    mask &= mask - 1u;
+    const uint own = surfaces.at[0].interiors.at[bit].priority;
+    if (surfaces.at[0].interiors.at[bit].ior != 1.0 && (deciding == kNoInterior || own > priority)) {
+      deciding = bit;
+      priority = own;
+    }
+  }
+  return deciding;
+}
+
+// The interiors in `mask` whose media are there: of refracting ones that overlap, the deciding one's alone.
+uint filledInteriors(ScenePtr scene, uint mask) {
+  if (!kPassing || bitCount(mask) < 2) {
+    return mask;
+  }
+  SurfacesPtr surfaces = scene.at[0].surfaces;
+  const uint deciding = decidingInterior(surfaces, mask);
+  uint filled = 0u;
+  [[dont_unroll]] while (mask != 0u) {
+    const uint bit = uint(findLSB(mask));
+    mask &= mask - 1u;
+    if (bit == deciding || surfaces.at[0].interiors.at[bit].ior == 1.0) {
+      filled |= 1u << bit;
+    }
+  }
+  return filled;
+}
+
 // The part of a ray in homogeneous medium `index` (x, y; empty: x >= y) and how often it lies there (z): objects that
 // overlap add up.
 vec3 mediumStretch(ScenePtr scene, uint index, PathRay ray, float tMax) {
   if (kInteriors && scene.at[0].media.at[index].shape == kShapeInterior) {
-    const int count = bitCount(ray.interiors & scene.at[0].media.at[index].interiors);
+    const int count = bitCount(filledInteriors(scene, ray.interiors) & scene.at[0].media.at[index].interiors);
     return count > 0 ? vec3(0.0, tMax, float(count)) : vec3(1.0, 0.0, 0.0);
   }
   const Medium medium = scene.at[0].media.at[index];

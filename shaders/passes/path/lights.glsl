@@ -7,6 +7,7 @@
 #include "light/lights.glsl"
 #include "light/tree.glsl"
 #include "passes/path/emission.glsl"
+#include "passes/path/aim_density.glsl"
 #include "passes/path/surface.glsl"
 
 const bool kSampleLights = (kTechniques & kTechniqueLight) != 0u;
@@ -18,7 +19,7 @@ const bool kFindable = kEmissiveSurfaces || kDistantAreas || kMediaEmission;
 // Share of the direction technique in the balance heuristic; `light` and `direction` are the densities [1/sr] of the
 // two for the same direction [Veach95].
 float directionWeight(float direction, float light) {
-  if (direction == 0.0 || !kSampleLights) {
+  if (direction == 0.0 || light == 0.0 || !kSampleLights) {
     return 1.0; // light sampling cannot have drawn it
   }
   return kSampleDirections ? direction / (direction + light) : 0.0;
@@ -87,17 +88,19 @@ LightRequest volumeRequest(ScenePtr scene, vec3 from, Emitter emitter, float cho
   return request;
 }
 
-LightRequest emitterRequest(ScenePtr scene, ScatterPoint vertex, float xi, inout Rng rng) {
+// Points, spots and small spheres: light samples in homogeneous media need no help from directions (aim.glsl).
+bool isSmall(ScenePtr scene, uint emitter) {
+  EmitterPtr list = scene.at[0].emitters.at[0].emitters;
+  return (list.at[emitter].flags & kEmitterSmall) != 0u;
+}
+
+// A sample of the surface of an emitter that has one, or of a point. `choicePdf` of the emitter.
+LightRequest surfaceRequest(ScenePtr scene, vec3 from, uint index, float choicePdf, inout Rng rng) {
   EmittersPtr emitters = scene.at[0].emitters;
-  const EmitterChoice choice = chooseEmitter(emitters, receiverOf(vertex), xi, rng);
-  const float choicePdf = choice.pdf * scene.at[0].emitterShare;
   EmitterPtr list = emitters.at[0].emitters;
-  const Emitter emitter = list.at[choice.emitter];
-  if (kVolumeEmitters && emitter.kind == kEmitterVolume) {
-    return volumeRequest(scene, vertex.place.position, emitter, choicePdf, rng);
-  }
+  const Emitter emitter = list.at[index];
   LightRequest request = noRequest();
-  const LightSample light = sampleEmitter(emitters, choice.emitter, vertex.place.position, rng);
+  const LightSample light = sampleEmitter(emitters, index, from, rng);
   if (!(light.pdf > 0.0) || light.radiance == vec3(0.0)) {
     return request;
   }
@@ -115,6 +118,22 @@ LightRequest emitterRequest(ScenePtr scene, ScatterPoint vertex, float xi, inout
   request.target = lightPoint(emitter, light);
   request.pdf = choicePdf * light.pdf;
   request.delta = light.delta;
+  return request;
+}
+
+LightRequest emitterRequest(ScenePtr scene, ScatterPoint vertex, float xi, inout Rng rng) {
+  EmittersPtr emitters = scene.at[0].emitters;
+  const EmitterChoice choice = chooseEmitter(emitters, receiverOf(vertex), xi, rng);
+  const float choicePdf = choice.pdf * scene.at[0].emitterShare;
+  EmitterPtr list = emitters.at[0].emitters;
+  if (kVolumeEmitters && list.at[choice.emitter].kind == kEmitterVolume) {
+    return volumeRequest(scene, vertex.place.position, list.at[choice.emitter], choicePdf, rng);
+  }
+  LightRequest request = surfaceRequest(scene, vertex.place.position, choice.emitter, choicePdf, rng);
+  if (kAimed && vertex.flightT >= 0.0 && isSmall(scene, choice.emitter)) {
+    request.delta = true;
+    request.value *= flightShare(scene, vertex, choice.emitter, choicePdf);
+  }
   return request;
 }
 

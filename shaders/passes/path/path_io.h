@@ -39,6 +39,7 @@
   SPEC(bool, kCount,           23, true)        /* lookups and segments are counted */        \
   SPEC(uint, kLightSelection,  24, 0u)          /* kSelect* of light/tree.glsl */             \
   SPEC(uint, kTechniques,      25, 3u)          /* kTechnique* below */                       \
+  SPEC(bool, kAimed,           28, true)        /* small lights in homogeneous media */       \
   SPEC(bool, kMediumTree,      27, false)       /* many grid media */                         \
   SPEC(uint, kPlantedBug,      26, 0u)          /* tests: kBug*; 0 = none */
 // clang-format on
@@ -73,12 +74,21 @@ struct PathRay {
   uint interiors;        // bits of the interiors that the origin lies in
 };
 
+// What a cast has found.
+struct PathHit {
+  float t;               // of the surface; the ray's tMax if there is none
+  uint primitive;        // or kNoHit
+  uint instance;
+  vec2 place;            // barycentric
+};
+
 // Where a path scattered last: what the probability of a light sample depends on.
 struct PathVertex {
   vec3 point;
   vec3 normal;           // surfaces: geometric, on the side that the path came from; 0 0 0 in media
   float pdf;             // of the direction that was drawn there [1/sr]; 0: no light sample could have drawn it
   float travelled;       // from the vertex to the ray's origin: null boundaries do not end a line
+  uint aimed;            // 1: small emitters are left to light samples (aim.glsl)
 };
 
 // Everything that a suspended pixel needs to go on.
@@ -105,10 +115,10 @@ struct PathState {
   float glowT;           // its distance from the vertex; < 0: none
   float glowInversePdf;
   float glowMeasure;     // of the whole line
-  float hitT;            // of the surface; tMax if there is none
-  uint hitPrimitive;
-  uint hitInstance;
-  vec2 hitPlace;         // barycentric
+  PathHit hit;           // of the ray in flight
+  PathHit nextHit;       // of `next`, if it has been cast
+  uint nextCast;         // 1: it has been
+  float aim;             // where on the path's ray an emitter is chosen to aim at; < 0: nowhere
   float collisionT;      // of the nearest collision in a homogeneous medium
   uint collisionMedium;
   vec3 radiance;         // of this sample

@@ -18,6 +18,7 @@ struct ScatterPoint {
   mat3 frame;           // surfaces: world from the shading frame
   bool surface;
   bool transmits;       // surfaces: light from below the normal counts
+  float flightT;        // where on the path's ray a collision in a homogeneous medium lies; < 0: it is none
   uint above;           // interiors on the normal's side,
   uint below;           // ... and on the other one; media: both the same
 };
@@ -75,6 +76,7 @@ PathRay leave(ScatterPoint vertex, vec3 direction, float tMax) {
 // A vertex in a medium, at distance t of the path's ray.
 ScatterPoint mediumVertex(ScenePtr scene, PathRay ray, float t, uint medium) {
   ScatterPoint vertex;
+  vertex.flightT = medium < scene.at[0].homogeneousCount ? t : -1.0;
   vertex.place = SurfacePoint(ray.origin + t * ray.direction, vec3(0.0), 0.0);
   vertex.incoming = ray.direction;
   vertex.phase = scene.at[0].media.at[medium].phase;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Paths as a chain of stages. Between two stages lies one ray: cast against the surfaces, then walked through the grid
-// media. There is one cast and one walk in the kernel; equation (20) of docs/theory.md is what their sum estimates.
+// media. There is one cast and one walk in the kernel; equation (60) of docs/theory.md is what their sum estimates.
 //
 //   Sample    a camera ray leaves
+//   Aimed     grids are walked up to an event that was aimed at a small light (aim.glsl); a shadow ray follows
 //   Gather    emission along the path's ray, one medium after the other: Gather chooses a point, Glow takes what
 //   Point     transmittance leaves of it
 //   Glow
@@ -11,7 +12,7 @@
 #ifndef TYNDALL_PATH_STAGES_GLSL
 #define TYNDALL_PATH_STAGES_GLSL
 
-#include "passes/path/lights.glsl"
+#include "passes/path/aim.glsl"
 #include "passes/path/surface.glsl"
 
 const uint kStageSample = 0u;
@@ -20,7 +21,8 @@ const uint kStagePoint = 2u;
 const uint kStageGlow = 3u;
 const uint kStageArrive = 4u;
 const uint kStageShadow = 5u;
-const uint kStageDone = 6u;
+const uint kStageAimed = 6u;
+const uint kStageDone = 7u;
 
 // A walk that is over at once: nothing lies between this stage and the next one.
 const uint kNoWalk = 0xfffffffeu;
@@ -29,8 +31,8 @@ void noWalk() { path.walk.medium = kNoWalk; }
 // Russian roulette: from this many events on, and with this survival at most from the second number on. Paths that
 // nothing absorbs would not end.
 const uint kRouletteEvents = 4u;
-const uint kEndingEvents = 16384u;
-const float kEndingSurvival = 0.999;
+const uint kEndingEvents = 2048u;
+const float kEndingSurvival = 0.996;
 
 bool isShadow() { return path.target != kTargetPath; }
 
@@ -47,8 +49,8 @@ vec3 walkedTransmittance() {
 
 void castRay() {
   path.casting = 1u;
-  path.hitT = path.ray.tMax;
-  path.hitPrimitive = kNoHit;
+  path.hit.t = path.ray.tMax;
+  path.hit.primitive = kNoHit;
   path.stage = kStageArrive; // settled once the ray has been cast
   noWalk();
 }
@@ -78,10 +80,11 @@ void stageSample(ScenePtr scene, uvec2 pixel, uint seed, uint sampleIndex, inout
   ray.direction = normalize(ray.direction);
   ray.tMax = kInfiniteDistance;
   ray.interiors = camera.interiors;
-  path.vertex = PathVertex(ray.origin, vec3(0.0), 0.0, 0.0);
+  path.vertex = PathVertex(ray.origin, vec3(0.0), 0.0, 0.0, 0u);
   path.throughput = vec3(1.0);
   path.ratio = vec3(1.0);
   path.pending = vec3(0.0);
+  path.nextCast = 0u;
   path.hero = kChromatic ? min(uint(rngFloat(rng) * 3.0), 2u) : 0u;
   path.events = 0u;
   path.radiance = vec3(0.0);
@@ -95,13 +98,90 @@ void stageSample(ScenePtr scene, uvec2 pixel, uint seed, uint sampleIndex, inout
 
 // Free flight of the path's own ray.
 void beginFlight(ScenePtr scene, inout Rng rng) {
-  path.collisionT = path.hitT;
+  path.collisionT = path.hit.t;
   path.collisionMedium = kNoMedium;
   if (kHomogeneous) {
-    path.collisionT = flightCollision(scene, path.ray, path.hitT, path.hero, rng, path.collisionMedium);
+    path.collisionT = flightCollision(scene, path.ray, path.hit.t, path.hero, rng, path.collisionMedium);
   }
   walkRay(scene, path.collisionT, kWalkCollide);
   path.stage = kStageArrive;
+}
+
+// What the path's own ray does once it has been cast.
+void followRay(ScenePtr scene, inout Rng rng) {
+  path.stage = kStageGather;
+  if (!kMediaEmission) {
+    beginFlight(scene, rng);
+  }
+}
+
+// The shadow ray that a light request asks for.
+PathRay shadowRay(ScatterPoint vertex, LightRequest request) {
+  if (request.target.error < 0.0) {
+    return leave(vertex, request.direction, kInfiniteDistance);
+  }
+  PathRay ray = leave(vertex, request.target.position - vertex.place.position, 0.0);
+  ray.tMax = shadowDistance(ray.origin, request.target, ray.direction);
+  return ray;
+}
+
+// Sends the shadow ray that a light request asks for, and returns true; the path's own ray waits in `next`.
+bool askForLight(ScatterPoint vertex, LightRequest request) {
+  path.pending = path.throughput * request.value;
+  if (path.pending == vec3(0.0)) {
+    return false;
+  }
+  path.ray = shadowRay(vertex, request);
+  path.target = request.medium == kNoMedium ? kTargetLight : request.medium;
+  path.targetPdf = request.pdf;
+  path.shadowPdf = request.directionPdf;
+  path.travelled = 0.0;
+  castRay();
+  return true;
+}
+
+// The path's own ray waits, cast already, while a shadow ray is in flight.
+void sendAimed(PathRay shadow) {
+  path.next = path.ray;
+  path.nextHit = path.hit;
+  path.nextCast = 1u;
+  path.ray = shadow;
+  path.target = kTargetLight;
+  path.travelled = 0.0;
+  castRay();
+}
+
+// One event in homogeneous media towards a small light; true if a ray is on its way for it.
+bool aimRay(ScenePtr scene, inout Rng rng) {
+  path.aim = -1.0;
+  if (path.events >= scene.at[0].maxEvents) {
+    return false;
+  }
+  const Aimed aimed = aimAtEmitter(scene, rng);
+  path.pending = path.throughput * aimed.value;
+  if (path.pending == vec3(0.0)) {
+    return false;
+  }
+  const PathRay shadow = shadowRay(aimed.vertex, aimed.request);
+  if (!kGrids) {
+    sendAimed(shadow);
+    return true;
+  }
+  path.next = shadow;
+  walkRay(scene, aimed.vertex.flightT, kWalkTransmit);
+  path.stage = kStageAimed;
+  return true;
+}
+
+// The grids' transmittance up to the aimed event is there.
+void stageAimed(ScenePtr scene, inout Rng rng) {
+  path.pending *= walkedTransmittance();
+  noWalk();
+  if (path.pending == vec3(0.0)) {
+    followRay(scene, rng);
+  } else {
+    sendAimed(path.next);
+  }
 }
 
 // The ray has been cast: what follows depends on what it is for.
@@ -110,15 +190,14 @@ void stageCast(ScenePtr scene, bool blocked, inout Rng rng) {
   noWalk();
   if (path.target == kTargetLight) {
     path.stage = kStageShadow;
-    path.pending *= blocked ? vec3(0.0) : flightTransmittance(scene, path.ray, path.hitT);
+    path.pending *= blocked ? vec3(0.0) : flightTransmittance(scene, path.ray, path.hit.t);
     if (path.pending != vec3(0.0)) {
-      walkRay(scene, path.hitT, kWalkTransmit);
+      walkRay(scene, path.hit.t, kWalkTransmit);
     }
     return;
   }
-  path.stage = kMediaEmission ? kStageGather : kStageArrive;
-  if (!kMediaEmission) {
-    beginFlight(scene, rng);
+  if (!kAimed || !aimRay(scene, rng)) {
+    followRay(scene, rng);
   }
 }
 
@@ -148,10 +227,10 @@ void stageGather(ScenePtr scene, inout Rng rng) {
   const PathRay line = lineOf();
   if (kGridEmission && medium >= scene.at[0].homogeneousCount) {
     path.walk = walkBegin(line.origin, line.direction, kInfiniteDistance, kWalkEmit, medium);
-    path.walk.collect = vec2(first, first + path.hitT);
+    path.walk.collect = vec2(first, first + path.hit.t);
     return;
   }
-  const GlowPoint glow = homogeneousGlow(scene, medium, line, first, first + path.hitT, path.hero, rng);
+  const GlowPoint glow = homogeneousGlow(scene, medium, line, first, first + path.hit.t, path.hero, rng);
   path.glowT = glow.t;
   path.glowInversePdf = glow.inversePdf;
   path.glowMeasure = glow.measure;
@@ -205,17 +284,25 @@ void stageGlow(ScenePtr scene) {
   path.stage = kStageGather;
   if (isShadow()) {
     path.stage = kStageShadow;
-    const bool goesOn = kPassing && path.hitPrimitive != kNoHit;
-    path.pending *= goesOn ? flightTransmittance(scene, path.ray, path.hitT) : vec3(0.0);
+    const bool goesOn = kPassing && path.hit.primitive != kNoHit;
+    path.pending *= goesOn ? flightTransmittance(scene, path.ray, path.hit.t) : vec3(0.0);
     if (path.pending != vec3(0.0)) {
-      walkRay(scene, path.hitT, kWalkTransmit);
+      walkRay(scene, path.hit.t, kWalkTransmit);
     }
   }
 }
 
 // The path's own ray again, or the end.
-void goOn() {
+void goOn(ScenePtr scene, inout Rng rng) {
   noWalk();
+  if (kAimed && path.nextCast != 0u) {
+    path.nextCast = 0u;
+    path.ray = path.next;
+    path.hit = path.nextHit;
+    path.target = kTargetPath;
+    followRay(scene, rng);
+    return;
+  }
   path.stage = kStageDone;
   if (path.throughput != vec3(0.0)) {
     castPath(path.next, 0.0);
@@ -223,13 +310,13 @@ void goOn() {
 }
 
 // A shadow ray has come to an end: at its light, at something opaque, or at a surface that lets it pass.
-void stageShadow(SurfacePass through) {
+void stageShadow(ScenePtr scene, SurfacePass through, inout Rng rng) {
   if (path.pending != vec3(0.0)) {
     path.pending *= walkedTransmittance();
   }
-  if (kPassing && path.hitPrimitive != kNoHit) {
+  if (kPassing && path.hit.primitive != kNoHit) {
     if (through.passes && path.pending != vec3(0.0)) {
-      path.travelled += path.hitT;
+      path.travelled += path.hit.t;
       path.ray = through.beyond;
       castRay();
       return;
@@ -237,7 +324,7 @@ void stageShadow(SurfacePass through) {
     path.pending = vec3(0.0);
   }
   path.radiance += path.target == kTargetLight ? path.pending : vec3(0.0);
-  goOn();
+  goOn(scene, rng);
 }
 
 // Radiance from infinity along the path's ray.
@@ -250,25 +337,6 @@ void escape(ScenePtr scene) {
     path.radiance += path.throughput * mixture.xyz * directionWeight(path.vertex.pdf, mixture.w);
   }
   path.stage = kStageDone;
-}
-
-// Sends the shadow ray that a light request asks for, and returns true; the path's own ray waits in `next`.
-bool askForLight(ScatterPoint vertex, LightRequest request) {
-  path.pending = path.throughput * request.value;
-  if (path.pending == vec3(0.0)) {
-    return false;
-  }
-  path.ray = leave(vertex, request.direction, kInfiniteDistance);
-  if (request.target.error >= 0.0) { // a point: the way to it from where the ray leaves
-    path.ray = leave(vertex, request.target.position - vertex.place.position, 0.0);
-    path.ray.tMax = shadowDistance(path.ray.origin, request.target, path.ray.direction);
-  }
-  path.target = request.medium == kNoMedium ? kTargetLight : request.medium;
-  path.targetPdf = request.pdf;
-  path.shadowPdf = request.directionPdf;
-  path.travelled = 0.0;
-  castRay();
-  return true;
 }
 
 // Draws the direction in which the path goes on. Leaves a throughput of 0 where it ends.
@@ -286,7 +354,7 @@ void drawDirection(ScenePtr scene, ScatterPoint vertex, inout Rng rng) {
   }
   if (path.throughput != vec3(0.0)) {
     path.next = leave(vertex, drawn.direction, kInfiniteDistance);
-    path.vertex = PathVertex(vertex.place.position, receiverOf(vertex).normal, drawn.pdf, 0.0);
+    path.vertex = PathVertex(vertex.place.position, receiverOf(vertex).normal, drawn.pdf, 0.0, uint(kAimed && vertex.flightT >= 0.0));
   }
 }
 
@@ -306,7 +374,7 @@ void scatter(ScenePtr scene, ScatterPoint vertex, inout Rng rng) {
   asked = askForLight(vertex, request);
   path.throughput = onward;
   if (!asked) {
-    goOn();
+    goOn(scene, rng);
   }
 }
 
@@ -334,7 +402,10 @@ float emissionWeight(ScenePtr scene, SurfaceVertex surface) {
   if (path.vertex.pdf == 0.0 || surface.emitter == kNoEmitter) {
     return 1.0;
   }
-  const float distance = path.vertex.travelled + path.hitT;
+  if (kAimed && path.vertex.aimed != 0u && isSmall(scene, surface.emitter)) {
+    return 0.0; // light samples find it better
+  }
+  const float distance = path.vertex.travelled + path.hit.t;
   const float light = emitterDirectionPdf(scene.at[0].emitters, surface.emitter, path.vertex.point, path.ray.direction,
                                           distance, surface.frontNormal);
   return directionWeight(path.vertex.pdf, light * emitterProbability(scene, surface.emitter, path.vertex));
@@ -342,14 +413,14 @@ float emissionWeight(ScenePtr scene, SurfaceVertex surface) {
 
 void arriveOnSurface(ScenePtr scene, HitAttributes hit, SurfacePass through, inout Rng rng) {
   if (kPassing && through.passes) {
-    castPath(through.beyond, kPlantedBug == kBugLineRestart ? 0.0 : path.vertex.travelled + path.hitT);
+    castPath(through.beyond, kPlantedBug == kBugLineRestart ? 0.0 : path.vertex.travelled + path.hit.t);
     return;
   }
   const SurfaceVertex surface = surfaceVertex(scene, hit);
   if (kEmissiveSurfaces && surface.emission != vec3(0.0)) {
     path.radiance += path.throughput * surface.emission * emissionWeight(scene, surface);
   }
-  recordFirst(path.hitT, surface.scatter.bsdf.colour);
+  recordFirst(path.hit.t, surface.scatter.bsdf.colour);
   if (path.events >= scene.at[0].maxEvents) {
     path.stage = kStageDone;
     return;
@@ -392,7 +463,7 @@ void stageEnd(ScenePtr scene, inout Rng rng) {
       countChannels(scene, t, medium);
     }
   }
-  const bool onSurface = kSurfaces && path.hitPrimitive != kNoHit && medium == kNoMedium;
+  const bool onSurface = kSurfaces && path.hit.primitive != kNoHit && medium == kNoMedium;
   HitAttributes hit;
   SurfacePass through;
   through.passes = false;
@@ -403,7 +474,7 @@ void stageEnd(ScenePtr scene, inout Rng rng) {
     }
   }
   if (shadow) {
-    stageShadow(through);
+    stageShadow(scene, through, rng);
   } else if (medium != kNoMedium) {
     noWalk();
     arriveInMedium(scene, t, medium, rng);

@@ -3,7 +3,7 @@
 #ifndef TYNDALL_PATH_SURFACE_GLSL
 #define TYNDALL_PATH_SURFACE_GLSL
 
-#include "geometry/ray.glsl"
+#include "geometry/offset.glsl"
 #include "material/normal.glsl"
 #include "material/resolve.glsl"
 #include "passes/path/scatter.glsl"
@@ -18,7 +18,7 @@ struct HitAttributes {
 };
 
 SurfaceHit hitOf() {
-  return SurfaceHit(path.hitT, path.hitPrimitive, path.hitInstance, path.hitPlace, false);
+  return SurfaceHit(path.hit.t, path.hit.primitive, path.hit.instance, path.hit.place, false);
 }
 
 vec2 triangleUv(SurfacesPtr surfaces, uint triangle, vec2 place) {
@@ -63,7 +63,7 @@ HitAttributes hitAttributes(ScenePtr scene) {
   hit.normal = hit.place.normal;
   hit.tangent = vec3(0.0);
   hit.uv = vec2(0.0);
-  const uint id = surfaces.at[0].primitives.at[path.hitPrimitive].id;
+  const uint id = surfaces.at[0].primitives.at[path.hit.primitive].id;
   const uint index = id & kPrimitiveIndexMask;
   if (kSpheres && (id & kPrimitiveKindMask) == kPrimitiveSphere) {
     hit.material = surfaces.at[0].spheres.at[index].material;
@@ -72,39 +72,22 @@ HitAttributes hitAttributes(ScenePtr scene) {
   }
   hit.material = surfaces.at[0].triangles.at[index].material;
   hit.emitter = surfaces.at[0].triangles.at[index].emitter;
-  const bool instanced = kInstances && path.hitInstance != kNoInstance;
-  const vec3 normal = triangleNormal(surfaces, index, path.hitPlace, vec3(0.0));
+  const bool instanced = kInstances && path.hit.instance != kNoInstance;
+  const vec3 normal = triangleNormal(surfaces, index, path.hit.place, vec3(0.0));
   if (normal != vec3(0.0)) {
     hit.normal = normal;
     if (instanced) {
-      hit.normal = normalize(normal * mat3(surfaces.at[0].instances.at[path.hitInstance].objectFromWorld));
+      hit.normal = normalize(normal * mat3(surfaces.at[0].instances.at[path.hit.instance].objectFromWorld));
     }
   }
   if (kTextures) {
-    hit.uv = triangleUv(surfaces, index, path.hitPlace);
-    hit.tangent = triangleTangent(surfaces, path.hitPrimitive, index);
+    hit.uv = triangleUv(surfaces, index, path.hit.place);
+    hit.tangent = triangleTangent(surfaces, path.hit.primitive, index);
     if (instanced) {
-      hit.tangent = mat3(surfaces.at[0].instances.at[path.hitInstance].worldFromObject) * hit.tangent;
+      hit.tangent = mat3(surfaces.at[0].instances.at[path.hit.instance].worldFromObject) * hit.tangent;
     }
   }
   return hit;
-}
-
-// Of the refracting interiors in `mask` the one that decides the index of refraction: the highest priority, of equal
-// ones the first. kNoInterior without any.
-uint decidingInterior(SurfacesPtr surfaces, uint mask) {
-  uint deciding = kNoInterior;
-  uint priority = 0u;
-  [[dont_unroll]] while (mask != 0u) {
-    const uint bit = uint(findLSB(mask));
-    mask &= mask - 1u;
-    const uint own = surfaces.at[0].interiors.at[bit].priority;
-    if (surfaces.at[0].interiors.at[bit].ior != 1.0 && (deciding == kNoInterior || own > priority)) {
-      deciding = bit;
-      priority = own;
-    }
-  }
-  return deciding;
 }
 
 float iorOf(SurfacesPtr surfaces, uint interior) {
@@ -141,7 +124,7 @@ SurfacePass surfacePass(ScenePtr scene, HitAttributes hit, inout Rng rng) {
   result.beyond = path.ray;
   result.beyond.origin = offsetOrigin(hit.place, path.ray.direction);
   if (path.ray.tMax < kInfiniteDistance) {
-    result.beyond.tMax = path.ray.tMax - path.hitT;
+    result.beyond.tMax = path.ray.tMax - path.hit.t;
   }
   result.beyond.interiors = dot(path.ray.direction, hit.place.normal) < 0.0 ? sides.y : sides.x;
   result.passes = result.passes || hole;
@@ -196,6 +179,7 @@ SurfaceVertex surfaceVertex(ScenePtr scene, HitAttributes hit) {
   vertex.scatter.incoming = path.ray.direction;
   vertex.scatter.bsdf = resolved.bsdf;
   vertex.scatter.surface = true;
+  vertex.scatter.flightT = -1.0;
   vertex.scatter.transmits = transmits;
   vertex.scatter.above = turned ? sides.y : sides.x;
   vertex.scatter.below = turned ? sides.x : sides.y;

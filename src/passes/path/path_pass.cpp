@@ -2,6 +2,7 @@
 #include "passes/path/path_pass.h"
 
 #include "kernels/path.h"
+#include "kernels/path_ray_query.h"
 
 #include <array>
 
@@ -16,9 +17,17 @@ auto specEntries(const PathSpec& spec) {
   };
 }
 
+std::span<const std::uint32_t> moduleFor(const gpu::AccelerationStructure* rays) {
+  if (rays == nullptr) {
+    return k_path_spirv;
+  }
+  return k_path_ray_query_spirv;
+}
+
 } // namespace
 
-PathPass::PathPass(const gpu::Device& device, const PathSpec& spec, const gpu::AtlasImages& images)
-    : kernel_(device, k_path_spirv, specEntries(spec), images) {}
+PathPass::PathPass(const gpu::Device& device, const PathSpec& spec, const gpu::AtlasImages& images,
+                   const gpu::AccelerationStructure* rays)
+    : kernel_(device, moduleFor(rays), specEntries(spec), images, rays) {}
 
 } // namespace tyndall::passes

@@ -17,7 +17,9 @@ struct PathSpec {
 /// One statistical batch of samples for a list of pixels; path_io.h is the contract.
 class PathPass {
 public:
-  PathPass(const gpu::Device& device, const PathSpec& spec, const gpu::AtlasImages& images);
+  /// @param rays casts the rays, where it is given, by ray queries; it must outlive the pass.
+  PathPass(const gpu::Device& device, const PathSpec& spec, const gpu::AtlasImages& images,
+           const gpu::AccelerationStructure* rays = nullptr);
 
   /// Runs `inputs.count` invocations and waits.
   void run(const interop::PathInputs& inputs) const { kernel_.run(inputs, inputs.count); }
