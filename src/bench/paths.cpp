@@ -29,7 +29,11 @@ constexpr Variant kVariants[] = {
     {"as rendered", [](PathSpec&) {}},
     {"nothing counted", [](PathSpec& spec) { spec.kCount = false; }},
     {"lights chosen evenly", [](PathSpec& spec) { spec.kLightSelection = interop::kSelectUniform; }},
-    {"no shadow rays", [](PathSpec& spec) { spec.kTechniques = interop::kTechniqueDirection; }},
+    {"no shadow rays",
+     [](PathSpec& spec) {
+       spec.kTechniques = interop::kTechniqueDirection;
+       spec.kAimed = false; // it casts some too
+     }},
 };
 
 struct PathScene {

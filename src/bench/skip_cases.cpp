@@ -32,8 +32,8 @@ void setFormats(PathSpec& spec, bool on) { spec.kFormatMask = on ? kAllFormats :
 void setPhases(PathSpec& spec, bool on) { spec.kPhaseMask = on ? kAllModels : spec.kPhaseMask; }
 void setMaterials(PathSpec& spec, bool on) { spec.kMaterialMask = on ? kAllModels : spec.kMaterialMask; }
 
-/// Everything that a scene may do without and have harmlessly: all but the tree of media, which would be empty, and
-/// the orthographic camera. Off: what `Off` does.
+/// Everything that a scene may do without and have harmlessly: all but the tree of media, which would be empty, aiming
+/// at lights, which needs some, and the orthographic camera. Off: what `Off` does.
 template <void (*Off)(PathSpec&, bool)>
 void setAll(PathSpec& spec, bool on) {
   if (!on) {
@@ -44,6 +44,7 @@ void setAll(PathSpec& spec, bool on) {
   spec = PathSpec{};
   spec.kMediumTree = chosen.kMediumTree;
   spec.kOrthographic = chosen.kOrthographic;
+  spec.kAimed = chosen.kAimed;
 }
 
 void asChosen(PathSpec&, bool) {}

@@ -17,8 +17,9 @@ namespace tyndall::scene {
 template <class Enum, std::size_t N>
 using NameTable = std::array<std::pair<std::string_view, Enum>, N>;
 
-inline constexpr NameTable<Camera::Kind, 2> kCameraTypes{
-    {{"perspective", Camera::Kind::Perspective}, {"orthographic", Camera::Kind::Orthographic}}};
+inline constexpr NameTable<Camera::Kind, 3> kCameraTypes{{{"perspective", Camera::Kind::Perspective},
+                                                          {"orthographic", Camera::Kind::Orthographic},
+                                                          {"file", Camera::Kind::File}}};
 inline constexpr NameTable<View, 2> kViews{{{"standard", View::Standard}, {"filmic", View::Filmic}}};
 inline constexpr NameTable<MediumShape, 4> kShapeTypes{{{"unbounded", MediumShape::Unbounded},
                                                         {"box", MediumShape::Box},

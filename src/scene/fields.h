@@ -16,6 +16,10 @@ namespace tyndall::scene {
 template <class V>
 void fields(V& v, Camera& camera) {
   v.choice("type", camera.kind, Names<Camera::Kind>(kCameraTypes), "the projection");
+  v.applies(camera.kind == Camera::Kind::File, "type \"file\"");
+  v.required().file("file", camera.file, "a .gltf or .glb file that holds cameras");
+  v.text("name", camera.name, "of the camera in the file; its first one if left out");
+  v.applies(camera.kind != Camera::Kind::File, "type \"perspective\" or \"orthographic\"");
   v.point("position", camera.position, "where the camera stands, scene units");
   v.point("target", camera.target, "a point in the middle of the picture, scene units");
   v.direction("up", camera.up, "the direction that is up in the picture");

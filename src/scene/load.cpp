@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/load.h"
 
+#include "scene/file_camera.h"
+
 #include "base/file.h"
 #include "scene/checks.h"
 #include "scene/overrides.h"
@@ -68,6 +70,7 @@ LoadResult parseScene(const std::string& text, const std::string& name, const fs
     ReadContext context{.findings = findings, .folder = folder};
     readRoot(parsed.root, context, result.scene);
     checkScene(result.scene, parsed.root, findings);
+    resolveFileCamera(result.scene.camera, parsed.root, findings);
   }
   if (result.scene.name.empty()) {
     result.scene.name = fs::path(name).stem().string();

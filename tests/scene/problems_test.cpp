@@ -107,7 +107,7 @@ TEST(SceneProblems, ValuesThatDoNotFit) {
       {R"(@"flim": {})", "flim: is not a known key; did you mean \"film\"?"},
       {R"(@"zzzzzzzz": {})", "is not a known key; here stand"},
       {R"("camera": @[1])", "camera: must be an object, { ... }, not a list of 1"},
-      {R"("camera": {"type": @"fisheye"})", "must be \"perspective\" or \"orthographic\", not the text \"fisheye\""},
+      {R"("camera": {"type": @"fisheye"})", "must be \"perspective\", \"orthographic\" or \"file\", not the text \"fisheye\""},
       {R"("camera": {"type": @"perspectiv"})", "did you mean \"perspective\"?"},
       {R"("camera": {"position": @[1, 2]})", "camera.position: must be three numbers"},
       {R"("camera": {"position": [1, @"2", 3]})", "camera.position.1: must be a number, not the text \"2\""},

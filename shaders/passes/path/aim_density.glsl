@@ -2,7 +2,7 @@
 // Two ways to an event in homogeneous media under a small light: free flight and then the choice of a light, or a light
 // first and then a distance uniform in the angle seen from it [Kulla12]. With free flight alone the variance near a
 // point light is infinite. Both densities are over distance and light, without the grids' transmittance, which they share;
-// docs/theory.md, (70).
+// docs/theory.md, (68).
 #ifndef TYNDALL_PATH_AIM_DENSITY_GLSL
 #define TYNDALL_PATH_AIM_DENSITY_GLSL
 

@@ -162,18 +162,14 @@ bool aimRay(ScenePtr scene, inout Rng rng) {
   if (path.pending == vec3(0.0)) {
     return false;
   }
-  const PathRay shadow = shadowRay(aimed.vertex, aimed.request);
-  if (!kGrids) {
-    sendAimed(shadow);
-    return true;
-  }
-  path.next = shadow;
+  path.next = shadowRay(aimed.vertex, aimed.request);
   walkRay(scene, aimed.vertex.flightT, kWalkTransmit);
   path.stage = kStageAimed;
   return true;
 }
 
-// The grids' transmittance up to the aimed event is there.
+// The grids' transmittance up to the aimed event is there. A stage of its own without grids too: the ray that is sent
+// here must be cast before another stage runs.
 void stageAimed(ScenePtr scene, inout Rng rng) {
   path.pending *= walkedTransmittance();
   noWalk();
