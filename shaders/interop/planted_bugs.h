@@ -26,6 +26,7 @@ GPU_CONST uint kBugHeroWeight = 31;     // balance heuristic over heroes for eac
 GPU_CONST uint kBugRoulette = 32;       // survivors of roulette without their weight
 GPU_CONST uint kBugNoPriority = 33;     // refracting boundaries inside objects of higher priority bend light
 GPU_CONST uint kBugLineRestart = 34;    // a null boundary starts a new line
+GPU_CONST uint kBugAimShare = 35;       // collisions under a small light count as if nothing else reached them
 
 GPU_END
 #endif

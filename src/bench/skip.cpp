@@ -34,7 +34,8 @@ std::string pictureText(const PathFigures& a, const PathFigures& b) {
   std::vector<std::size_t> pixels(a.pictures.front().size());
   std::iota(pixels.begin(), pixels.end(), std::size_t{0});
   const Difference apart = difference(a.pictures, b.pictures, pixels, false);
-  return fmt::format("{:+.1f} sigma", apart.mean / apart.meanError);
+  const double sigmas = apart.mean / apart.meanError;
+  return std::isfinite(sigmas) ? fmt::format("{:+.1f} sigma", sigmas) : "other"; // black, or without noise
 }
 
 /// The same scene without a feature's code, with it, and from a module that never had it.

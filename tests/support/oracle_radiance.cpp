@@ -60,6 +60,7 @@ glm::dvec2 homogeneousSpan(const scene::Medium& medium, const OracleRay& local, 
   case MediumShape::Unbounded: return {0.0, tMax};
   case MediumShape::Box: return boxSpan(local, medium.box, tMax);
   case MediumShape::Sphere: return sphereSpan(local, medium.centre, medium.radius, tMax);
+  case MediumShape::Objects: break; // the oracle knows no surfaces
   }
   return {0.0, 0.0};
 }

@@ -59,7 +59,7 @@ LightReceiver aimReceiver() {
 
 // Balance heuristic's weight of the light sample of a small emitter at a collision that free flight has made.
 float flightShare(ScenePtr scene, ScatterPoint vertex, uint emitter, float choicePdf) {
-  if (path.aim < 0.0) {
+  if (path.aim < 0.0 || kPlantedBug == kBugAimShare) {
     return 1.0;
   }
   const float flight = choicePdf * flightDensity(scene, vertex.flightT);
