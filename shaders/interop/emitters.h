@@ -12,7 +12,8 @@ GPU_CONST uint kEmitterSpot = 1;     // the same; edge1 = axis (unit), edge2.x =
 GPU_CONST uint kEmitterTriangle = 2; // position = v0, edge1 = v1 - v0, edge2 = v2 - v0; radiance on the side of
                                      // cross(edge1, edge2), or both
 GPU_CONST uint kEmitterSphere = 3;   // position = centre, edge1.x = radius; outside, or both sides
-GPU_CONST uint kEmitterVolume = 4;   // index = medium whose emission it is; inside the box position, position + edge1
+GPU_CONST uint kEmitterVolume = 4;   // index = medium whose emission it is; its points are position + (edge1 edge2
+                                     // radiance) * local, local in the unit cube, the unit ball or of the grid's voxels
 
 GPU_CONST uint kEmitterTwoSided = 1u; // flag
 GPU_CONST uint kEmitterSmall = 2u;    // flag: a point, a spot, or a sphere that is small beside the scene

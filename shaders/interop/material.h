@@ -63,10 +63,11 @@ GPU_BUFFER(Material)
 // What fills a closed surface. Bits in a mask say which interiors a point lies in.
 struct Interior {
   uint medium;       // index into Scene::media, or kNoMedium: nothing that scatters or absorbs
-  float ior;         // 1: no refraction
+  float ior;         // > 0, or kNotRefracting: its boundary bends nothing and has no priority
   uint priority;     // where refracting interiors overlap, the highest one decides the index of refraction
 };
 GPU_BUFFER(Interior)
+GPU_CONST float kNotRefracting = 0.0f;
 GPU_CONST uint kNoMedium = 0xffffffffu;
 
 GPU_END

@@ -14,7 +14,7 @@ vec3 emissionOf(Medium medium, vec3Ptr blackbody, float value, float sigmaT) {
   } else {
     j *= max(value, 0.0);
   }
-  return medium.emissionTied != 0u ? j * sigmaT * (1.0 - medium.albedo) : j;
+  return medium.emissionTied != 0u ? j * sigmaT * medium.colour * (1.0 - medium.albedo) : j;
 }
 
 #endif

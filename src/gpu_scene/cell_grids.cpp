@@ -89,7 +89,8 @@ double plannedCellBytes(const PackedMedia& media, const VolumeSet& volumes) {
     bytes += voxelBytes(media, volumes, g);
   }
   for (const PackedMedia::Placement& placement : media.placements) {
-    bytes += double(media.source(placement).maxima.size() + media.source(placement).coarseMaxima.size()) * sizeof(float);
+    bytes +=
+        double(media.source(placement).maxima.size() + media.source(placement).coarseMaxima.size()) * sizeof(float);
   }
   return bytes;
 }

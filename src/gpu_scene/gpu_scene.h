@@ -44,7 +44,7 @@ struct Features {
   bool volumeEmitters = false;
   bool aimed = false; ///< small lights in homogeneous media
   bool lens = false;
-  bool mediumTree = false; ///< many media with grids: a tree of their boxes is walked
+  bool mediumTree = false;     ///< many media with grids: a tree of their boxes is walked
   bool overlapOfGrids = false; ///< more than one medium with a density grid: delta tracking, see tracker/walk.glsl
 };
 

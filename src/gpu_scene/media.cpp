@@ -62,7 +62,8 @@ double shapeVolume(const scene::Medium& medium, const glm::dmat4& worldFromMediu
     return scale * size.x * size.y * size.z;
   }
   const double radius = medium.radius;
-  return medium.shape == scene::MediumShape::Sphere ? scale * 4.0 / 3.0 * std::numbers::pi * radius * radius * radius : 0.0;
+  return medium.shape == scene::MediumShape::Sphere ? scale * 4.0 / 3.0 * std::numbers::pi * radius * radius * radius
+                                                    : 0.0;
 }
 
 std::uint32_t deviceShape(scene::MediumShape shape) {
@@ -235,7 +236,7 @@ private:
   /// Sums over the bricks, by which a point of the emission is drawn: maximum times the volume inside the bounds.
   void measureEmission(Medium& packed) {
     PackedMedia::Placement& placement = out_.placements[packed.emissionGrid];
-        const interop::Grid& header = placement.header;
+    const interop::Grid& header = placement.header;
     const double voxelVolume = 1.0 / std::abs(glm::determinant(glm::dmat3(glm::mat3(header.voxelFromWorld))));
     if (placement.sameAs) {
       const PackedMedia::Placement& first = out_.source(placement);
@@ -249,8 +250,10 @@ private:
     for (int z = 0; z < header.brickCount.z; ++z) {
       for (int y = 0; y < header.brickCount.y; ++y) {
         for (int x = 0; x < header.brickCount.x; ++x, ++brick) {
-          const glm::dvec3 low = glm::max(glm::dvec3(x, y, z) * double(interop::kBrickEdge), glm::dvec3(header.boundsMin));
-          const glm::dvec3 high = glm::min(glm::dvec3(x + 1, y + 1, z + 1) * double(interop::kBrickEdge), glm::dvec3(header.boundsMax));
+          const glm::dvec3 low =
+              glm::max(glm::dvec3(x, y, z) * double(interop::kBrickEdge), glm::dvec3(header.boundsMin));
+          const glm::dvec3 high =
+              glm::min(glm::dvec3(x + 1, y + 1, z + 1) * double(interop::kBrickEdge), glm::dvec3(header.boundsMax));
           const glm::dvec3 size = glm::max(high - low, glm::dvec3(0.0));
           sum += double(placement.maxima[brick]) * size.x * size.y * size.z * voxelVolume;
           placement.cumulative.push_back(static_cast<float>(sum));

@@ -14,7 +14,8 @@
 /// Scene values -> device structs, without a device: pure functions.
 namespace tyndall::gpu_scene {
 
-/// World bounds of everything bounded: media, objects, point and spot lights; the camera's position if there is nothing else.
+/// World bounds of everything bounded: media, objects, point and spot lights; the camera's position if there is nothing
+/// else.
 Bounds3 sceneBounds(const scene::Scene& scene, const VolumeSet& volumes);
 
 /// A grid on the device but for its addresses. World space is centred on `centre`.

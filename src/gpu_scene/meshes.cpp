@@ -119,8 +119,7 @@ Bounds3 objectBounds(const scene::Scene& scene, const MeshSet& meshes) {
   Bounds3 bounds;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const Bounds3 local = localBounds(scene.objects[i], meshes, i);
-    for (const glm::dmat4& place :
-         placements(scene.objects[i].worldFromObject, scene.objects[i].instances)) {
+    for (const glm::dmat4& place : placements(scene.objects[i].worldFromObject, scene.objects[i].instances)) {
       bounds.extend(transformed(place, local));
     }
   }

@@ -21,7 +21,8 @@ std::uint32_t flagsOf(const Material& material) {
   if (material.alpha == geometry::Alpha::Mask) {
     flags |= interop::kMaterialAlphaMask;
   }
-  if (material.alpha == geometry::Alpha::Blend || (material.alpha == geometry::Alpha::Opaque && material.opacity < 1.0)) {
+  if (material.alpha == geometry::Alpha::Blend ||
+      (material.alpha == geometry::Alpha::Opaque && material.opacity < 1.0)) {
     flags |= interop::kMaterialAlphaBlend;
   }
   return flags;
@@ -83,7 +84,7 @@ void SurfaceMaterials::begin(std::size_t object) {
     }
     interior_ = static_cast<std::uint32_t>(out_.interiors.size());
     out_.interiors.push_back(
-        {medium, glass != nullptr ? static_cast<float>(glass->ior) : 1.0f, described.priority});
+        {medium, glass != nullptr ? static_cast<float>(glass->ior) : interop::kNotRefracting, described.priority});
   }
 }
 

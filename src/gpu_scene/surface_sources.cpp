@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gpu_scene/surface_sources.h"
 
+#include <glm/gtc/matrix_transform.hpp>
+
 #include <algorithm>
 
 namespace tyndall::gpu_scene {
@@ -42,6 +44,13 @@ Mesh boxMesh(const Bounds3& box) {
   return mesh;
 }
 
+/// Vertices are floats: about the object's own centre, since its place may be far from the origin.
+template <class MakeMesh>
+void addMade(ObjectSource& source, const glm::dvec3& centre, MakeMesh makeMesh) {
+  source.made.push_back(makeMesh(centre));
+  source.parts.push_back({0, glm::translate(glm::dmat4(1.0), centre)});
+}
+
 double signedVolume(const ObjectSource& source) {
   double volume = 0.0;
   for (const ObjectSource::Part& part : source.parts) {
@@ -75,12 +84,16 @@ ObjectSource objectSource(const scene::Object& object, const MeshSet& meshes, st
     }
     break;
   case scene::Object::Kind::Quad:
-    addQuad(source.made.emplace_back(), object.origin, object.edgeU, object.edgeV);
-    source.parts.emplace_back();
+    addMade(source, object.origin + 0.5 * (object.edgeU + object.edgeV), [&](const glm::dvec3& centre) {
+      Mesh mesh;
+      addQuad(mesh, object.origin - centre, object.edgeU, object.edgeV);
+      return mesh;
+    });
     break;
   case scene::Object::Kind::Box:
-    source.made.push_back(boxMesh(object.box));
-    source.parts.emplace_back();
+    addMade(source, object.box.centre(), [&](const glm::dvec3& centre) {
+      return boxMesh({object.box.min - centre, object.box.max - centre});
+    });
     break;
   case scene::Object::Kind::Sphere:
     break; // a primitive of its own

@@ -16,7 +16,7 @@ struct ObjectSource {
   const geometry::Model* model = nullptr; ///< of a file
   std::vector<geometry::Mesh> made;       ///< of a quad or box
   std::vector<Part> parts;
-  bool insideOut = false;                 ///< it encloses a negative volume
+  bool insideOut = false; ///< it encloses a negative volume
 
   const geometry::Mesh& mesh(std::uint32_t index) const {
     return model != nullptr ? model->meshes[index] : made[index];

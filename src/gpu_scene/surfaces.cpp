@@ -21,8 +21,8 @@ using geometry::Mesh;
 constexpr std::size_t kInstancedTriangles = 4096;
 
 interop::BvhPrimitive trianglePrimitive(const glm::dvec3 (&corners)[3], std::size_t index, bool opaque) {
-  const auto id = static_cast<std::uint32_t>(index) | interop::kPrimitiveTriangle |
-                  (opaque ? interop::kPrimitiveOpaque : 0u);
+  const auto id =
+      static_cast<std::uint32_t>(index) | interop::kPrimitiveTriangle | (opaque ? interop::kPrimitiveOpaque : 0u);
   return {glm::vec3(corners[0]), glm::vec3(corners[1]), glm::vec3(corners[2]), id};
 }
 
@@ -90,10 +90,11 @@ private:
   void addTriangles(const ObjectSource& source, const Mesh& mesh, const glm::dmat4& worldFromMesh,
                     std::vector<BvhInput>& target, const glm::dmat4& targetFromMesh) {
     const auto firstVertex = static_cast<std::uint32_t>(out_.vertices.size());
-    addVertices(mesh, targetFromMesh);
     // Mirrored, or inside out where it encloses something: the front stays outside.
     const bool mirrored = glm::determinant(glm::dmat3(targetFromMesh)) < 0.0;
-    const bool turned = mirrored != (materials_.interior() != interop::kNoInterior && source.insideOut);
+    const bool insideOut = materials_.interior() != interop::kNoInterior && source.insideOut;
+    const bool turned = mirrored != insideOut;
+    addVertices(mesh, targetFromMesh, insideOut ? -1.0 : 1.0);
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
       glm::uvec3 order = mesh.triangles[i];
       if (turned) {
@@ -122,8 +123,9 @@ private:
     }
   }
 
-  void addVertices(const Mesh& mesh, const glm::dmat4& targetFromMesh) {
-    const glm::dmat3 normalMatrix = glm::inverseTranspose(glm::dmat3(targetFromMesh));
+  /// @param side -1: normals are turned over.
+  void addVertices(const Mesh& mesh, const glm::dmat4& targetFromMesh, double side) {
+    const glm::dmat3 normalMatrix = side * glm::inverseTranspose(glm::dmat3(targetFromMesh));
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
       interop::Vertex vertex{glm::vec3(0.0f), glm::vec2(0.0f)};
       if (!mesh.normals.empty() && mesh.normals[i] != glm::vec3(0.0f)) {
@@ -157,8 +159,8 @@ private:
     for (std::size_t i = 0; i < inputs_.size(); ++i) {
       parts_.push_back(geometry::buildBvh(inputs_[i]));
       for (const std::size_t index : instancesOf_[i]) {
-        const glm::dmat4 worldFromObject = glm::dmat4(
-            glm::dmat4x3(out_.instances[index].worldFromObject)); // as the device has it
+        const glm::dmat4 worldFromObject =
+            glm::dmat4(glm::dmat4x3(out_.instances[index].worldFromObject)); // as the device has it
         BvhInput input{};
         input.primitive.id = interop::kPrimitiveInstance | static_cast<std::uint32_t>(index);
         input.bounds = transformed(worldFromObject, parts_.back().bounds);
@@ -238,8 +240,8 @@ private:
   SurfaceMaterials materials_;
   std::vector<BvhInput> world_;
   std::map<std::pair<const Mesh*, std::string>, std::size_t> partOf_;
-  std::vector<std::vector<BvhInput>> inputs_;          ///< of each instanced mesh
-  std::vector<std::vector<std::size_t>> instancesOf_;  ///< of each instanced mesh
+  std::vector<std::vector<BvhInput>> inputs_;         ///< of each instanced mesh
+  std::vector<std::vector<std::size_t>> instancesOf_; ///< of each instanced mesh
   std::vector<geometry::Bvh> parts_;
   std::size_t degenerate_ = 0;
   int winding_ = 0;

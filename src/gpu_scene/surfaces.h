@@ -23,11 +23,11 @@ struct PackedSurfaces {
   std::vector<interop::Material> materials;
   std::vector<const geometry::Texture*> textures; ///< into the MeshSet
   std::vector<interop::Interior> interiors;
-  std::vector<interop::Emitter> emitters;         ///< emissive triangles and spheres
-  std::vector<float> emitterScales;               ///< mean of the emission texture, one per emitter
-  std::uint32_t cameraInteriors = 0;              ///< bits of the interiors that the camera stands in
-  std::uint32_t materialMask = 0;                 ///< bit = MaterialId
-  bool passing = false;                           ///< null boundaries, holes, or refracting objects that may overlap
+  std::vector<interop::Emitter> emitters; ///< emissive triangles and spheres
+  std::vector<float> emitterScales;       ///< mean of the emission texture, one per emitter
+  std::uint32_t cameraInteriors = 0;      ///< bits of the interiors that the camera stands in
+  std::uint32_t materialMask = 0;         ///< bit = MaterialId
+  bool passing = false;                   ///< null boundaries, holes, or refracting objects that may overlap
   bool textured = false;
   std::vector<std::string> notes;
 };

@@ -19,7 +19,7 @@ struct VolumeSet {
     std::optional<std::size_t> emission;
   };
   std::vector<volume::BrickGrid> grids;
-  std::vector<Use> uses;          ///< one per medium of the scene
+  std::vector<Use> uses; ///< one per medium of the scene
   MeshSet meshes;
   std::vector<std::string> notes; ///< sentences for the user: "file: grid: ..."
 

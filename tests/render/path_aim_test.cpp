@@ -7,7 +7,7 @@
 namespace tyndall::test {
 namespace {
 
-/// A point, a spot and a small ball shine in two media that overlap, over a floor and beside a puff.
+/// A point, a spot and a small ball shine in two media that overlap, over a floor and beside a puff; media glow too.
 PathScene lampsInMist() {
   PathScene test({16, 16});
   test.perspective({0.0, 0.4, 4.0}, {0.0, 0.2, 0.0}, 30.0); // the ball is out of sight
@@ -19,8 +19,11 @@ PathScene lampsInMist() {
   test.point({0.7, 0.6, 0.0}, 1.0);
   test.spot({.position = {0.1, 1.0, -0.5}, .direction = {0.0, -1.0, 0.0}, .intensity = glm::dvec3(3.0)});
   test.box({-2.0, -1.0, -2.0}, {2.0, 1.5, 2.0}, 0.2, 0.9).phase = henyeyGreenstein(0.4);
-  test.sphere({0.4, 0.4, 0.0}, 0.8, 0.3, 0.7);
+  scene::Emission glow;
+  glow.scale = 0.3;
+  test.sphere({0.4, 0.4, 0.0}, 0.8, 0.3, 0.7).emission = glow;
   test.grid(puffGrid(), 0.5, 0.8);
+  test.emissionGrid(puffGrid(), glow);
   return test;
 }
 

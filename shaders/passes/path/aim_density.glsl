@@ -65,7 +65,7 @@ float flightShare(ScenePtr scene, ScatterPoint vertex, uint emitter, float choic
   const float flight = choicePdf * flightDensity(scene, vertex.flightT);
   const float aimChoice = emitterChoicePdf(scene.at[0].emitters, emitter, aimReceiver());
   const float aimed = aimDensity(scene, emitter, aimChoice, vertex.flightT);
-  return flight / (flight + aimed);
+  return aimed > 0.0 ? flight / (flight + aimed) : 1.0; // both may be 0 where a channel is opaque
 }
 
 #endif

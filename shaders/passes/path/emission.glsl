@@ -92,7 +92,8 @@ vec3 volumePoint(ScenePtr scene, uint index, Emitter emitter, inout Rng rng) {
   }
   Grid grid = scene.at[0].grids.at[scene.at[0].media.at[index].emissionGrid];
   const int count = grid.brickCount.x * grid.brickCount.y * grid.brickCount.z;
-  const float target = rngFloat(rng) * scene.at[0].media.at[index].emissionMeasure;
+  // The sums may be those of another copy of the grid, of another size: their own last one is the range.
+  const float target = rngFloat(rng) * grid.cumulative.at[count - 1];
   int low = 0;
   int high = count - 1;
   [[dont_unroll]] while (low < high) { // the first brick whose sum is above the target

@@ -16,7 +16,7 @@ uint decidingInterior(SurfacesPtr surfaces, uint mask) {
     const uint bit = uint(findLSB(mask));
     mask &= mask - 1u;
     const uint own = surfaces.at[0].interiors.at[bit].priority;
-    if (surfaces.at[0].interiors.at[bit].ior != 1.0 && (deciding == kNoInterior || own > priority)) {
+    if (surfaces.at[0].interiors.at[bit].ior != kNotRefracting && (deciding == kNoInterior || own > priority)) {
       deciding = bit;
       priority = own;
     }
@@ -35,7 +35,7 @@ uint filledInteriors(ScenePtr scene, uint mask) {
   [[dont_unroll]] while (mask != 0u) {
     const uint bit = uint(findLSB(mask));
     mask &= mask - 1u;
-    if (bit == deciding || surfaces.at[0].interiors.at[bit].ior == 1.0) {
+    if (bit == deciding || surfaces.at[0].interiors.at[bit].ior == kNotRefracting) {
       filled |= 1u << bit;
     }
   }

@@ -94,6 +94,26 @@ bool isSmall(ScenePtr scene, uint emitter) {
   return (list.at[emitter].flags & kEmitterSmall) != 0u;
 }
 
+// Radiance of a point of an emissive surface, by its texture, and by how much of it is there: a ray that comes upon it
+// finds a hole with probability 1 - opacity.
+vec3 shiningPart(ScenePtr scene, Emitter emitter, LightSample light) {
+  SurfacesPtr surfaces = scene.at[0].surfaces;
+  MaterialPtr materials = surfaces.at[0].materials;
+  const bool triangle = emitter.kind == kEmitterTriangle;
+  vec2 uv = vec2(0.0);
+  if (kTextures && triangle) {
+    uv = triangleUv(surfaces, emitter.index, light.barycentric);
+  }
+  uint material;
+  if (triangle) {
+    material = surfaces.at[0].triangles.at[emitter.index].material;
+  } else {
+    material = surfaces.at[0].spheres.at[emitter.index].material;
+  }
+  const float opacity = kPassing ? materialOpacity(materials, material, surfaces.at[0].textures, uv) : 1.0;
+  return opacity * materialEmission(materials, material, surfaces.at[0].textures, uv);
+}
+
 // A sample of the surface of an emitter that has one, or of a point. `choicePdf` of the emitter.
 LightRequest surfaceRequest(ScenePtr scene, vec3 from, uint index, float choicePdf, inout Rng rng) {
   EmittersPtr emitters = scene.at[0].emitters;
@@ -108,11 +128,8 @@ LightRequest surfaceRequest(ScenePtr scene, vec3 from, uint index, float choiceP
   if (kPlantedBug == kBugJacobian && light.delta) {
     request.value *= light.distance * light.distance;
   }
-  if (kTextures && emitter.kind == kEmitterTriangle) {
-    SurfacesPtr surfaces = scene.at[0].surfaces;
-    const vec2 uv = triangleUv(surfaces, emitter.index, light.barycentric);
-    const uint material = surfaces.at[0].triangles.at[emitter.index].material;
-    request.value = materialEmission(surfaces.at[0].materials, material, surfaces.at[0].textures, uv);
+  if ((kTextures || kPassing) && (emitter.kind == kEmitterTriangle || emitter.kind == kEmitterSphere)) {
+    request.value = shiningPart(scene, emitter, light);
   }
   request.direction = light.direction;
   request.target = lightPoint(emitter, light);

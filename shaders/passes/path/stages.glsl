@@ -192,7 +192,7 @@ void stageCast(ScenePtr scene, bool blocked, inout Rng rng) {
     }
     return;
   }
-  if (!kAimed || !aimRay(scene, rng)) {
+  if (!kAimed || isShadow() || !aimRay(scene, rng)) {
     followRay(scene, rng);
   }
 }

@@ -117,7 +117,7 @@ SurfacePass surfacePass(ScenePtr scene, HitAttributes hit, inout Rng rng) {
   if (kInteriors && model == kMaterialDielectric && own != kNoInterior) {
     const uint other = decidingInterior(surfaces, sides.x);
     result.passes = kPlantedBug != kBugNoPriority && other != kNoInterior &&
-                    surfaces.at[0].interiors.at[other].priority >= surfaces.at[0].interiors.at[own].priority;
+                    decidingInterior(surfaces, sides.y) == other; // also with this one
   }
   const float opacity = materialOpacity(materials, hit.material, surfaces.at[0].textures, hit.uv);
   const bool hole = opacity < 1.0 && !(rngFloat(rng) < opacity);
