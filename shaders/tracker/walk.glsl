@@ -9,7 +9,7 @@
 //   kWalkTransmit ratio tracking: the product of 1 - sigma_t / majorant over all media [Novak14, section 3].
 //   kWalkEmit     no collisions: a point of Walk::collect, chosen in proportion to the emission grid's cell maxima.
 //
-// The includer declares two specialization constants. kMediumTree: there are many grid media, a tree of their boxes says
+// The includer declares what has code: kWeighted, kGridEmission, kMediumTree, kChromatic. kMediumTree: there are many grid media, a tree of their boxes says
 // which ones the segment may meet. kChromatic: where extinction differs by channel, one channel, the hero, decides what
 // collides; Walk::ratio says how much more or less likely it is by the others' extinction (docs/theory.md, (64)).
 #ifndef TYNDALL_TRACKER_WALK_GLSL

@@ -25,7 +25,7 @@
   SPEC(bool, kTextures,         9, true)                                                      \
   SPEC(bool, kSpheres,         10, true)                                                      \
   SPEC(bool, kInstances,       11, true)        /* of meshes */                               \
-  SPEC(bool, kPassing,         12, true)        /* null boundaries and holes in surfaces */   \
+  SPEC(bool, kPassing,         12, true)        /* null or overruled boundaries, holes */     \
   SPEC(bool, kInteriors,       13, true)        /* objects filled with media or refracting */ \
   SPEC(bool, kEmitters,        14, true)        /* lights that have a place */                \
   SPEC(bool, kEmissiveSurfaces, 15, true)                                                     \
@@ -99,7 +99,7 @@ struct PathState {
   uint casting;          // 1: the ray is to be cast against the surfaces first
   uvec4 rng;
   PathRay ray;           // in flight: the path's own, or a shadow ray
-  PathRay next;          // the path's own, while shadow rays are in flight
+  PathRay next;          // the path's own, while shadow rays are in flight; stage Aimed: the shadow ray
   PathVertex vertex;     // that the path's own ray comes from
   vec3 throughput;       // of the path up to its ray's origin
   vec3 ratio;            // per channel: the path's pdf with that channel as hero, over their mean
