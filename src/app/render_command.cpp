@@ -28,7 +28,7 @@ double allowedBytes(const RenderRequest& request, const gpu::Device& device) {
 /// Those of them that are left for volumes and light caches.
 double volumeBudget(const RenderRequest& request, const gpu::Device& device) {
   const double all = allowedBytes(request, device);
-  const double estimator = render::plannedBytes(device, {.method = request.method.value_or(render::Method::Path)});
+  const double estimator = render::plannedBytes(device, {.method = request.method.value_or(render::Method::Tracking)});
   if (all <= estimator) {
     fail("--memory: rendering alone needs {} on this device; allow more", inBytes(estimator));
   }
