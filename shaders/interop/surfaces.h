@@ -42,11 +42,19 @@ struct BvhPrimitive {
 GPU_BUFFER(BvhPrimitive)
 
 GPU_CONST uint kNoEmitter = 0xffffffffu;
+GPU_CONST uint kNoMotion = 0xffffffffu;       // it stands where it stood in the previous frame
+
+// From a surface's place in this frame to its place in the previous one: centred world space of this frame, both.
+struct Motion {
+  mat4x3 previousFromNow;
+};
+GPU_BUFFER(Motion)
 
 struct Triangle {
   uint vertices[3];   // indices into Surfaces::vertices, in the order of BvhPrimitive
   uint material;      // index into Surfaces::materials
   uint emitter;       // index into Surfaces::emitters, or kNoEmitter
+  uint motion;        // index into Surfaces::motions, or kNoMotion; of an instanced mesh: kNoMotion, its instance's holds
 };
 GPU_BUFFER(Triangle)
 
@@ -61,6 +69,7 @@ struct Sphere {
   float radius;
   uint material;
   uint emitter;
+  uint motion;        // index into Surfaces::motions, or kNoMotion
 };
 GPU_BUFFER(Sphere)
 
@@ -69,7 +78,7 @@ struct Instance {
   mat4x3 objectFromWorld;
   mat4x3 worldFromObject;
   uint root;          // its node
-  uint flags;         // unused
+  uint motion;        // index into Surfaces::motions, or kNoMotion
 };
 GPU_BUFFER(Instance)
 
@@ -83,6 +92,7 @@ struct Surfaces {
   GPU_PTR(Material) materials;
   GPU_PTR(Texture) textures;
   GPU_PTR(Interior) interiors;
+  GPU_PTR(Motion) motions;        // 0: nothing moves
   vec3 boundsMin;                 // of all surfaces
   vec3 boundsMax;
 };

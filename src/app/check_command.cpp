@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/commands.h"
 #include "app/device_options.h"
+#include "app/frames.h"
 #include "app/mesh_input.h"
 #include "app/reference_check.h"
 #include "base/error.h"
@@ -16,9 +17,31 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Whether `known`, maybe of another frame, is the same one.
+bool sameProblem(const scene::Problem& known, const scene::Problem& problem) {
+  return known.location.line == problem.location.line && known.location.column == problem.location.column &&
+         known.message.ends_with(problem.message);
+}
+
+/// Those of all frames that have a key, each once.
+std::vector<scene::Problem> problemsOfText(const std::string& path) {
+  const scene::LoadResult result = scene::readScene(path);
+  std::vector<scene::Problem> problems = result.problems;
+  for (const double frame : scene::keyFrames(result.scene.animation)) {
+    for (scene::Problem& problem : scene::readScene(path, {}, frame).problems) {
+      if (std::none_of(problems.begin(), problems.end(),
+                       [&](const scene::Problem& known) { return sameProblem(known, problem); })) {
+        problem.message = inFrame(frame, problem.message);
+        problems.push_back(std::move(problem));
+      }
+    }
+  }
+  return problems;
+}
+
 /// The text's own problems and those of the files that it names, in file order.
 std::vector<scene::Problem> problemsOf(const std::string& path) {
-  std::vector<scene::Problem> problems = scene::readScene(path).problems;
+  std::vector<scene::Problem> problems = problemsOfText(path);
   const bool readable = std::none_of(problems.begin(), problems.end(),
                                      [](const scene::Problem& problem) { return problem.location.file.empty(); });
   if (readable) {

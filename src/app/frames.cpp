@@ -57,4 +57,6 @@ fs::path firstFile(const std::string& file) {
   return volume::frameFile(file, frames.front());
 }
 
+std::string inFrame(double frame, const std::string& message) { return fmt::format("in frame {}: {}", frame, message); }
+
 } // namespace tyndall::app

@@ -14,4 +14,7 @@ std::vector<int> framesPresent(const std::string& pattern);
 /// `file`, or the first frame that is there if it is the pattern of a sequence. @throws Error if none is there.
 std::filesystem::path firstFile(const std::string& file);
 
+/// What is wrong in one frame of a scene that moves.
+std::string inFrame(double frame, const std::string& message);
+
 } // namespace tyndall::app

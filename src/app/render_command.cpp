@@ -19,6 +19,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kDefaultMemoryShare = 0.8;
+/// Of the memory allowed, for chains at most.
+constexpr double kGuideMemoryShare = 0.25;
 
 /// Device bytes that the render may take.
 double allowedBytes(const RenderRequest& request, const gpu::Device& device) {
@@ -121,7 +123,7 @@ private:
     const Stopwatch load;
     auto result = std::make_unique<Prepared>();
     Prepared& prepared = *result;
-    prepared.scene = sceneOfFrame(source_.scene, frame);
+    prepared.scene = sceneOfFrame(source_, request_, frame);
     prepared.timings = timings_;
     if (source_.volumes && (!frame || frame == source_.exposureFrame)) {
       prepared.volumes = std::move(*source_.volumes);
@@ -134,14 +136,39 @@ private:
     const Stopwatch upload;
     chooseMethod(prepared);
     prepared.gpuScene = std::make_unique<gpu_scene::GpuScene>(device_, prepared.scene, prepared.volumes,
-                                                              render::layoutOf(prepared.choice.method));
+                                                              render::layoutOf(prepared.choice.method),
+                                                              poseBefore(frame));
+    pose_ = gpu_scene::poseOf(prepared.scene, prepared.volumes.meshes);
+    poseFrame_ = frame;
     prepared.timings.upload = upload.seconds();
+    prepared.guide = guidePlan(prepared);
     const Stopwatch estimator;
     prepared.estimator = render::makeEstimator(device_, *prepared.gpuScene, prepared.volumes,
-                                               estimatorOptions(request_, prepared.choice));
+                                               estimatorOptions(request_, prepared));
     prepared.timings.estimator = estimator.seconds();
     tellAbout(prepared);
     return result;
+  }
+
+  /// The chains of the frames before go on, where there are any.
+  std::optional<render::GuidePlan> guidePlan(const Prepared& prepared) {
+    if (prepared.scene.render.integrator == scene::Integrator::Path) {
+      return std::nullopt;
+    }
+    const scene::GuideSettings& settings = prepared.scene.guide;
+    const guide::StoreSize size =
+        guide::storeSize(settings, std::size_t(prepared.scene.film.size.x) * prepared.scene.film.size.y,
+                         kGuideMemoryShare * allowedBytes(request_, device_));
+    if (!guide_ || !(guide_->store->size() == size)) {
+      guide_ = render::GuidePlan{settings, std::make_shared<guide::Store>(device_, size), prepared.gpuScene->centre()};
+    }
+    guide_->settings = settings;
+    return guide_;
+  }
+
+  /// nullptr if the frame before was not prepared last.
+  const gpu_scene::Pose* poseBefore(const std::optional<int>& frame) const {
+    return frame && poseFrame_ && *poseFrame_ == *frame - 1 ? &pose_ : nullptr;
   }
 
   void chooseMethod(Prepared& prepared) const {
@@ -159,6 +186,12 @@ private:
       say()(note);
     }
     tellAboutEstimator(prepared);
+    if (prepared.guide) {
+      say()(fmt::format("guided by {}: one unit of its lengths is {:.4g} scene units, chains take {}",
+                        scene::integratorName(prepared.scene.render.integrator),
+                        render::guideUnit(prepared.guide->settings, *prepared.gpuScene),
+                        inBytes(prepared.guide->store->bytes())));
+    }
     say()(fmt::format("device memory: {} of {} allowed, on {}", inBytes(double(device_.allocatedBytes())),
                       inBytes(allowedBytes(request_, device_)), device_.info().name));
     const std::vector<volume::BrickGrid>& grids = prepared.volumes.grids;
@@ -215,8 +248,11 @@ private:
   double budget_;
   Timings timings_;
   Source source_;
+  std::optional<render::GuidePlan> guide_; ///< of the last frame
   std::unique_ptr<Prepared> prepared_; ///< what the exposure was chosen from
   std::optional<int> preparedFrame_;
+  gpu_scene::Pose pose_; ///< of the frame that was prepared last
+  std::optional<int> poseFrame_;
 };
 
 } // namespace

@@ -106,6 +106,21 @@ void addWork(CLI::App& command, RenderRequest& request) {
       "path for everything; auto: the first of them that serves",
       "NAME");
   text(
+      command, "--integrator",
+      [&request](const std::string& value) { request.overrides.push_back({"render.integrator", value}); },
+      "how directions of paths are drawn: path (scattering and lights), mcpg (guided by Markov chains), mcpg-paper (as "
+      "published)",
+      "NAME");
+  text(
+      command, "--light-sampling",
+      [&request](const std::string& value) {
+        if (value != "on" && value != "off") {
+          fail("--light-sampling {}: there are on (the default) and off", value);
+        }
+        request.overrides.push_back({"render.light_sampling", value == "on" ? "true" : "false"});
+      },
+      "off: lights that have a size are found by directions alone", "on|off");
+  text(
       command, "--rays",
       [&request](const std::string& value) {
         if (value != "auto" && value != "tree" && value != "query") {
@@ -149,7 +164,7 @@ void addScene(CLI::App& command, RenderRequest& request) {
       ->type_name("path=value");
   text(
       command, "--frames", [&request](const std::string& value) { request.frames = volume::parseFrames(value); },
-      "frames of a sequence such as smoke_%04d.vdb or smoke_####.vdb", "a-b");
+      "frames of a scene that moves, or of a sequence such as smoke_%04d.vdb or smoke_####.vdb", "a-b");
 }
 
 void addBareVolume(CLI::App& command, RenderRequest& request) {

@@ -49,7 +49,7 @@ film::Film renderWithProgress(const PictureContext& context, const Prepared& pre
   options.checkpoint = files.checkpoint;
   options.checkpointSeconds = request.checkpointSeconds;
   options.resume = request.resume;
-  options.sceneHash = sceneHash(prepared.scene, prepared.volumes, estimatorOptions(request, prepared.choice));
+  options.sceneHash = sceneHash(prepared.scene, prepared.volumes, estimatorOptions(request, prepared));
   options.interrupted = &context.interrupted;
   options.progress = [&](const render::Progress& progress) {
     render::Progress shown = progress;
@@ -154,20 +154,24 @@ double plannedBytes(const PictureContext& context, const Prepared& prepared) {
   const bool cells = render::layoutOf(prepared.choice.method) == gpu_scene::GridLayout::Cells;
   const double grids = cells ? gpu_scene::plannedCellBytes(prepared.gpuScene->media(), prepared.volumes)
                              : prepared.volumes.deviceBytes();
-  const render::EstimatorOptions options = estimatorOptions(context.request, prepared.choice);
+  const render::EstimatorOptions options = estimatorOptions(context.request, prepared);
   return grids + double(prepared.gpuScene->surfaceBytes()) + prepared.estimator->caches().bytes +
          render::plannedBytes(context.device, options);
 }
 
 } // namespace
 
-render::EstimatorOptions estimatorOptions(const RenderRequest& request, const render::MethodChoice& choice) {
-  return {.method = choice.method,
+render::EstimatorOptions estimatorOptions(const RenderRequest& request, const Prepared& prepared) {
+  return {.method = prepared.choice.method,
           .aovs = request.deviceAovs(),
           .deltaTracking = request.deltaTracking.value_or(false),
           .preview = request.preview,
-          .cacheBytes = choice.cacheBytes,
-          .rays = request.rays};
+          .cacheBytes = prepared.choice.cacheBytes,
+          .techniques = prepared.scene.render.lightSampling
+                            ? interop::kTechniqueLight | interop::kTechniqueDirection
+                            : interop::kTechniqueDirection,
+          .rays = request.rays,
+          .guide = prepared.guide};
 }
 
 int renderPicture(const PictureContext& context, const Prepared& prepared, const OutputFiles& files) {

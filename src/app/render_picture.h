@@ -16,6 +16,7 @@ struct Prepared {
   scene::Scene scene;
   gpu_scene::VolumeSet volumes;
   render::MethodChoice choice;
+  std::optional<render::GuidePlan> guide;
   std::unique_ptr<gpu_scene::GpuScene> gpuScene;
   std::unique_ptr<render::Estimator> estimator; ///< the exposure's and the picture's
   Timings timings;
@@ -29,7 +30,7 @@ struct PictureContext {
   Say say;
 };
 
-render::EstimatorOptions estimatorOptions(const RenderRequest& request, const render::MethodChoice& choice);
+render::EstimatorOptions estimatorOptions(const RenderRequest& request, const Prepared& prepared);
 
 /// Renders one picture, writes its files and says what came out.
 /// @return exit code: 0, 1 if the picture is unsound (samples that were not finite, a majorant exceeded, rays cut

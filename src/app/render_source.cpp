@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/render_source.h"
 
+#include "app/frames.h"
 #include "base/error.h"
 #include "base/file.h"
 
@@ -12,21 +13,28 @@ namespace tyndall::app {
 namespace fs = std::filesystem;
 namespace {
 
-/// Logs the warnings; @throws Error with all errors.
-scene::Scene accepted(scene::LoadResult result) {
+/// @throws Error with all errors.
+scene::Scene sound(scene::LoadResult result) {
   std::string errors;
   for (const scene::Problem& problem : result.problems) {
-    const std::string text = Error(problem.location, problem.message).what();
-    if (problem.warning) {
-      spdlog::warn("{}", text);
-    } else {
-      errors += (errors.empty() ? "" : "\n") + text;
+    if (!problem.warning) {
+      errors += (errors.empty() ? "" : "\n") + std::string(Error(problem.location, problem.message).what());
     }
   }
   if (!result.ok()) {
     throw Error(errors);
   }
   return std::move(result.scene);
+}
+
+/// Logs the warnings; @throws Error with all errors.
+scene::Scene accepted(scene::LoadResult result) {
+  for (const scene::Problem& problem : result.problems) {
+    if (problem.warning) {
+      spdlog::warn("{}", Error(problem.location, problem.message).what());
+    }
+  }
+  return sound(std::move(result));
 }
 
 /// The options that stand for keys of the scene.
@@ -88,9 +96,12 @@ scene::AutoFrame autoFrame(const gpu_scene::VolumeSet& volumes) {
 }
 
 bool changesMedia(const std::vector<scene::Override>& overrides) {
-  return std::any_of(overrides.begin(), overrides.end(),
-                     [](const scene::Override& o) { return o.path.starts_with("media"); });
+  return std::any_of(overrides.begin(), overrides.end(), [](const scene::Override& o) {
+    return o.path.starts_with("media") || o.path.starts_with("animation");
+  });
 }
+
+double firstFrame(const RenderRequest& request) { return request.frames ? request.frames->first : scene::kFirstFrame; }
 
 Source makeUpSource(const RenderRequest& request, double memoryBudget, const Say& say) {
   const std::vector<fs::path> files = volumeFiles(request);
@@ -114,7 +125,8 @@ Source makeUpSource(const RenderRequest& request, double memoryBudget, const Say
   Source source;
   source.madeUp = true;
   // Written and read again: what --write-scene saves is what is rendered, and --set has one meaning.
-  source.scene = accepted(scene::parseScene(scene::toJson(made.scene), request.input, "", request.overrides));
+  source.text = scene::toJson(made.scene);
+  source.scene = accepted(scene::parseScene(source.text, request.input, "", request.overrides, firstFrame(request)));
   if (!changesMedia(request.overrides)) {
     source.volumes = std::move(sets[made.densestFrame]);
     if (!source.scene.media.front().emission) {
@@ -130,6 +142,34 @@ Source makeUpSource(const RenderRequest& request, double memoryBudget, const Say
   return source;
 }
 
+bool playsFile(const std::string& file) { return file.ends_with(".gltf") || file.ends_with(".glb"); }
+
+/// Whether there are objects that a file may move.
+bool playsFiles(const scene::Scene& scene) {
+  return std::any_of(scene.objects.begin(), scene.objects.end(),
+                     [](const scene::Object& object) { return playsFile(object.file); });
+}
+
+/// Whether frames may differ in more than the volumes of a sequence.
+bool moves(const scene::Scene& scene) {
+  return !scene.animation.tracks.empty() || playsFile(scene.camera.file) || playsFiles(scene);
+}
+
+/// The scene where everything stands at a frame.
+scene::Scene movedTo(int frame, const Source& source, const RenderRequest& request) {
+  const fs::path folder = source.madeUp ? fs::path() : fs::path(request.input).parent_path();
+  scene::LoadResult result = scene::parseScene(source.text, request.input, folder, request.overrides, frame);
+  for (scene::Problem& problem : result.problems) {
+    problem.message = inFrame(frame, problem.message);
+  }
+  scene::Scene scene = sound(std::move(result));
+  applyOptions(request, scene);
+  if (source.chooseExposure) {
+    scene.film.exposure = source.scene.film.exposure;
+  }
+  return scene;
+}
+
 std::string contentsOf(const std::string& file) { return fmt::format("{:016x}", hashFile(file)); }
 
 } // namespace
@@ -139,7 +179,8 @@ Source readSource(const RenderRequest& request, double memoryBudget, const Say& 
   if (request.bareVolume()) {
     source = makeUpSource(request, memoryBudget, say);
   } else {
-    source.scene = accepted(scene::readScene(request.input, request.overrides));
+    source.scene = accepted(scene::readScene(request.input, request.overrides, firstFrame(request)));
+    source.text = moves(source.scene) ? readTextFile(request.input) : "";
     source.chooseExposure = request.chooseExposure;
     source.exposureFrame = request.frames ? std::optional(request.frames->first) : std::nullopt;
   }
@@ -147,8 +188,9 @@ Source readSource(const RenderRequest& request, double memoryBudget, const Say& 
   return source;
 }
 
-scene::Scene sceneOfFrame(const scene::Scene& scene, std::optional<int> frame) {
-  scene::Scene result = scene;
+scene::Scene sceneOfFrame(const Source& source, const RenderRequest& request, std::optional<int> frame) {
+  const bool moving = moves(source.scene);
+  scene::Scene result = frame && moving ? movedTo(*frame, source, request) : source.scene;
   bool sequence = false;
   for (scene::Medium& medium : result.media) {
     const fs::path file = medium.file;
@@ -161,9 +203,9 @@ scene::Scene sceneOfFrame(const scene::Scene& scene, std::optional<int> frame) {
     medium.file = volume::expandSequence(medium.file, {*frame, *frame}).front().string();
     sequence = true;
   }
-  if (frame && !sequence) {
-    fail("--frames: no medium of the scene names a sequence; put a placeholder into its file, as in smoke_%04d.vdb or "
-         "smoke_####.vdb");
+  if (frame && !sequence && !moving) {
+    fail("--frames: nothing in the scene moves: it has no \"animation\" and no glTF file, and no medium's file names a "
+         "sequence, as smoke_%04d.vdb or smoke_####.vdb do");
   }
   return result;
 }
@@ -172,6 +214,7 @@ std::string sceneHash(const scene::Scene& scene, const gpu_scene::VolumeSet& vol
                       const render::EstimatorOptions& estimator) {
   scene::Scene core = scene;
   core.name.clear();
+  core.animation = {}; // what its tracks move stands where it is in this frame
   core.film.exposure = 0.0;
   core.film.view = scene::View::Standard;
   core.render.samples = 1;
@@ -189,6 +232,7 @@ std::string sceneHash(const scene::Scene& scene, const gpu_scene::VolumeSet& vol
   }
   core.render.depth = scene.depth(); // however it was chosen
   std::string text = scene::toJson(core);
+  text += playsFiles(scene) ? fmt::format("{}", scene.animation.seconds) : "";
   for (const volume::BrickGrid& grid : volumes.grids) {
     text += volume::storageName(grid.storage);
   }

@@ -13,7 +13,8 @@ namespace tyndall::app {
 
 /// The scene of a request, made up for a bare volume, with the command line's changes.
 struct Source {
-  scene::Scene scene;                          ///< files of a sequence still as patterns
+  scene::Scene scene;                          ///< of the first frame; files of a sequence still as patterns
+  std::string text;                            ///< of the scene file, where something moves
   std::optional<gpu_scene::VolumeSet> volumes; ///< of exposureFrame, where loading them was needed anyway
   bool chooseExposure = false;                 ///< scene.film.exposure is still to be chosen
   std::optional<int> exposureFrame;            ///< ... from this frame of a sequence
@@ -27,9 +28,9 @@ using Say = std::function<void(const std::string&)>;
 /// @throws Error if the scene or a volume is bad; the text has every problem, one per line.
 Source readSource(const RenderRequest& request, double memoryBudget, const Say& say);
 
-/// The scene with the files of one frame; as it is for no frame.
-/// @throws Error if a frame is given and no medium names a sequence, or the other way round.
-scene::Scene sceneOfFrame(const scene::Scene& scene, std::optional<int> frame);
+/// The scene with its places and files of one frame; as it is for no frame.
+/// @throws Error if a frame is given and nothing moves, if a sequence has no frame, or if the frame is not sound.
+scene::Scene sceneOfFrame(const Source& source, const RenderRequest& request, std::optional<int> frame);
 
 /// 64-bit hash, as hex, of everything that decides the bits of a picture: the scene with what its files hold, the
 /// storage of its voxels, and the estimator. Sample counts, seed, exposure and names have no say.

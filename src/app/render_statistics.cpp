@@ -72,6 +72,32 @@ Json pathsJson(const render::Totals& totals) {
           {"most_events_of_one", totals.longest}};
 }
 
+double ratio(std::uint64_t part, std::uint64_t whole) { return whole > 0 ? double(part) / double(whole) : 0.0; }
+
+/// What guiding did, and what its store holds.
+Json guidingJson(const RenderRecord& record, const render::GuideReport& guide) {
+  const render::GuideTotals& totals = guide.totals;
+  return {{"integrator", scene::integratorName(record.scene.render.integrator)},
+          {"vertices", totals.vertices},
+          {"guided_share", ratio(totals.guided, totals.vertices)},
+          {"states_per_vertex", ratio(totals.states, totals.vertices)},
+          {"accepted_share", ratio(totals.accepted, totals.vertices)},
+          {"forgotten", totals.forgotten},
+          {"collisions", totals.evicted},
+          {"unsound_scores", totals.unsound},
+          {"store",
+           {{"bytes", guide.bytes},
+            {"cells", guide.size.cells},
+            {"cells_taken", guide.occupancy.cells},
+            {"static_cells", guide.size.staticCells},
+            {"static_cells_taken", guide.occupancy.staticCells},
+            {"states", (std::uint64_t(guide.size.cells) + guide.size.staticCells) * guide.size.states},
+            {"states_taken", guide.occupancy.states},
+            {"radiance_cells", guide.size.radiance},
+            {"radiance_cells_taken", guide.occupancy.radiance},
+            {"unsound_states", guide.occupancy.unsound}}}};
+}
+
 } // namespace
 
 std::string statisticsJson(const RenderRecord& record, const film::Metadata& metadata) {
@@ -97,6 +123,9 @@ std::string statisticsJson(const RenderRecord& record, const film::Metadata& met
   if (record.choice.method == render::Method::Path) {
     root["paths"] = pathsJson(totals);
     root["surfaces"] = toJson(record.surfaces);
+  }
+  if (report.guide) {
+    root["guiding"] = guidingJson(record, *report.guide);
   }
   root["density_lookups"] = totals.lookups;
   root["segments"] = totals.segments;

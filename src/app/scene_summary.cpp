@@ -243,6 +243,10 @@ std::string toText(const SceneSummary& summary) {
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     line(label("object", scene.objects[i].name, i), objectText(scene.objects[i]));
   }
+  if (const std::vector<double> frames = scene::keyFrames(scene.animation); !frames.empty()) {
+    line("animation", fmt::format("{} tracks, keys from frame {} to {}; told is frame {}",
+                                  scene.animation.tracks.size(), frames.front(), frames.back(), scene::kFirstFrame));
+  }
   for (const SceneFile& file : summary.files) {
     line("file", fmt::format("{} ({}{}), for {}", file.path, inBytes(double(file.bytes)),
                              file.frames > 1 ? fmt::format(" the first of {} frames", file.frames) : "", file.use));

@@ -78,9 +78,9 @@ void dropEmptyMeshes(Model& model) {
   }
 }
 
-Model read(const fs::path& path, const std::string& extension, Mended& mended) {
+Model read(const fs::path& path, const std::string& extension, double seconds, Mended& mended) {
   if (extension == ".gltf" || extension == ".glb") {
-    return loadGltf(path, mended);
+    return loadGltf(path, seconds, mended);
   }
   if (extension == ".obj") {
     return loadObj(path, mended);
@@ -91,9 +91,9 @@ Model read(const fs::path& path, const std::string& extension, Mended& mended) {
   fail("no mesh file that Tyndall reads: its name must end in .gltf, .glb, .obj or .ply");
 }
 
-Model readAndSettle(const fs::path& path, const std::string& extension) {
+Model readAndSettle(const fs::path& path, const std::string& extension, double seconds) {
   Mended mended;
-  Model model = read(path, extension, mended);
+  Model model = read(path, extension, seconds, mended);
   std::size_t triangles = 0;
   for (Mesh& mesh : model.meshes) {
     makeSound(mesh, mended);
@@ -146,11 +146,11 @@ std::string readBytes(const fs::path& path, std::uint64_t limit) {
   return bytes;
 }
 
-Model loadModel(const fs::path& path) {
+Model loadModel(const fs::path& path, double seconds) {
   std::string extension = path.extension().string();
   std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
   try {
-    return readAndSettle(path, extension);
+    return readAndSettle(path, extension, seconds);
   } catch (const Error& problem) {
     fail("{}: {}", path.string(), problem.what());
   } catch (const std::bad_alloc&) {

@@ -95,9 +95,6 @@ void warnOfWhatIsPassedOver(const tinygltf::Model& source, Model& model) {
   if (!passed.empty()) {
     model.warnings.push_back(fmt::format("What the extension {} says is passed over.", joinNames(passed)));
   }
-  if (!source.animations.empty()) {
-    model.warnings.push_back(fmt::format("{} animations are passed over.", source.animations.size()));
-  }
   if (!source.skins.empty()) {
     model.warnings.push_back("Skins are passed over: their meshes keep the pose that they are stored in.");
   }
@@ -146,9 +143,10 @@ double numberOf(const tinygltf::Value& object, const std::string& key, double fa
   return object.Get(key).GetNumberAsDouble();
 }
 
-Model loadGltf(const fs::path& path, Mended& mended) {
-  const tinygltf::Model source = parseGltf(path);
+Model loadGltf(const fs::path& path, double seconds, Mended& mended) {
+  tinygltf::Model source = parseGltf(path);
   Model model;
+  poseGltf(source, seconds, model);
   warnOfWhatIsPassedOver(source, model);
   GltfMaterials(source, model).readAll();
   readGltfMeshes(source, model, mended);

@@ -25,6 +25,9 @@ std::vector<std::uint32_t> readIndices(const tinygltf::Model& source, int access
 /// A member of an extension, or `fallback` where it is missing or of another type.
 double numberOf(const tinygltf::Value& object, const std::string& key, double fallback);
 
+/// Puts the nodes to where the file's animations, all at once, have them; says what of these is passed over.
+void poseGltf(tinygltf::Model& source, double seconds, Model& model);
+
 /// Materials and the textures that they use.
 class GltfMaterials {
 public:

@@ -89,7 +89,7 @@ private:
 void clampMaterial(Material& material, Mended& mended);
 
 /// The readers: what a file holds, before what is common to all formats. @throws Error
-Model loadGltf(const std::filesystem::path& path, Mended& mended);
+Model loadGltf(const std::filesystem::path& path, double seconds, Mended& mended);
 Model loadObj(const std::filesystem::path& path, Mended& mended);
 Model loadPly(const std::filesystem::path& path, Mended& mended);
 

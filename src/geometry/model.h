@@ -111,7 +111,8 @@ struct Model {
 /// Triangles without a material of their own have kNone. A node whose transform has no inverse gets a baked mesh.
 /// glTF: MetalRough, or Dielectric where KHR_materials_transmission is 1. OBJ: Dielectric for illumination models 6 and
 /// 7, MetalRough with a highlight (Ks, illum >= 2; roughness = (2 / (Ns + 2))^(1/4)) or Pr, Pm, else Diffuse.
+/// @param seconds the time that animations of glTF are shown at.
 /// @throws Error with the file's name, what is wrong and what to do: not there, not readable, nothing to draw.
-Model loadModel(const std::filesystem::path& path);
+Model loadModel(const std::filesystem::path& path, double seconds = 0.0);
 
 } // namespace tyndall::geometry

@@ -39,6 +39,12 @@ vk::BufferUsageFlags usageOf(BufferUse use) {
   return all;
 }
 
+/// Memory that both sides see, on the way to or from a buffer.
+struct Staging {
+  vk::Buffer buffer;
+  std::byte* mapped;
+};
+
 } // namespace
 
 RawBuffer::RawBuffer(const Device& device, std::size_t bytes, Memory memory, BufferUse use)
@@ -76,6 +82,24 @@ RawBuffer::~RawBuffer() {
   }
 }
 
+/// In slices: a volume of gigabytes must not need its size again in host-visible memory.
+template <class Copy>
+void RawBuffer::throughStaging(std::size_t bytes, const Copy& copy) const {
+  constexpr std::size_t kStagingBytes = std::size_t{64} << 20;
+  Device::Impl& owner = *impl_->device;
+  const std::size_t slice = std::min(kStagingBytes, bytes);
+  const vk::raii::Buffer buffer(
+      owner.device, {{}, slice, vk::BufferUsageFlagBits::eTransferSrc | vk::BufferUsageFlagBits::eTransferDst});
+  const vk::MemoryRequirements need = buffer.getMemoryRequirements();
+  const vk::raii::DeviceMemory memory = owner.allocate(need, Property::eHostVisible | Property::eHostCoherent, false);
+  buffer.bindMemory(*memory, 0);
+  const Staging staging{*buffer, static_cast<std::byte*>(memory.mapMemory(0, VK_WHOLE_SIZE))};
+  for (std::size_t first = 0; first < bytes; first += slice) {
+    copy(staging, first, std::min(slice, bytes - first));
+  }
+  owner.released(need.size);
+}
+
 void RawBuffer::write(std::span<const std::byte> data, std::size_t offset) {
   TYNDALL_CHECK(offset + data.size() <= bytes_);
   if (data.empty()) {
@@ -85,23 +109,29 @@ void RawBuffer::write(std::span<const std::byte> data, std::size_t offset) {
     std::memcpy(mapped_ + offset, data.data(), data.size());
     return;
   }
-  // In slices: a volume of gigabytes must not need its size again in host-visible memory.
-  constexpr std::size_t kStagingBytes = std::size_t{64} << 20;
-  Device::Impl& owner = *impl_->device;
-  const std::size_t slice = std::min(kStagingBytes, data.size());
-  const vk::raii::Buffer staging(owner.device, {{}, slice, vk::BufferUsageFlagBits::eTransferSrc});
-  const vk::MemoryRequirements need = staging.getMemoryRequirements();
-  const vk::raii::DeviceMemory memory = owner.allocate(need, Property::eHostVisible | Property::eHostCoherent, false);
-  staging.bindMemory(*memory, 0);
-  std::byte* target = static_cast<std::byte*>(memory.mapMemory(0, VK_WHOLE_SIZE));
-  for (std::size_t first = 0; first < data.size(); first += slice) {
-    const std::size_t count = std::min(slice, data.size() - first);
-    std::memcpy(target, data.data() + first, count);
-    owner.runCommands([&](const vk::raii::CommandBuffer& commands) {
-      commands.copyBuffer(*staging, *impl_->buffer, vk::BufferCopy(0, offset + first, count));
+  throughStaging(data.size(), [&](const Staging& staging, std::size_t first, std::size_t count) {
+    std::memcpy(staging.mapped, data.data() + first, count);
+    impl_->device->runCommands([&](const vk::raii::CommandBuffer& commands) {
+      commands.copyBuffer(staging.buffer, *impl_->buffer, vk::BufferCopy(0, offset + first, count));
     });
+  });
+}
+
+void RawBuffer::read(std::span<std::byte> data, std::size_t offset) const {
+  TYNDALL_CHECK(offset + data.size() <= bytes_);
+  if (data.empty()) {
+    return;
   }
-  owner.released(need.size);
+  if (mapped_ != nullptr) {
+    std::memcpy(data.data(), mapped_ + offset, data.size());
+    return;
+  }
+  throughStaging(data.size(), [&](const Staging& staging, std::size_t first, std::size_t count) {
+    impl_->device->runCommands([&](const vk::raii::CommandBuffer& commands) {
+      commands.copyBuffer(*impl_->buffer, staging.buffer, vk::BufferCopy(offset + first, 0, count));
+    });
+    std::memcpy(data.data() + first, staging.mapped, count);
+  });
 }
 
 void RawBuffer::fillZero() {

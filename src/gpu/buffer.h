@@ -37,12 +37,17 @@ public:
   std::byte* mapped() const { return mapped_; }
   /// Copies to the device, through a staging buffer where it is not mapped.
   void write(std::span<const std::byte> data, std::size_t offset = 0);
+  /// Copies from the device, through a staging buffer where it is not mapped.
+  void read(std::span<std::byte> data, std::size_t offset = 0) const;
   void fillZero();
 
   struct Impl;
   Impl& impl() const { return *impl_; }
 
 private:
+  template <class Copy>
+  void throughStaging(std::size_t bytes, const Copy& copy) const;
+
   std::unique_ptr<Impl> impl_;
   std::size_t bytes_ = 0;
   std::uint64_t address_ = 0;
@@ -65,6 +70,8 @@ public:
   std::size_t bytes() const { return raw_.bytes(); }
   interop::Ptr<T> ptr(std::size_t first = 0) const { return {count_ == 0 ? 0 : raw_.address() + first * sizeof(T)}; }
   void write(std::span<const T> values) { raw_.write(std::as_bytes(values)); }
+  /// From the first element on.
+  void read(std::span<std::byte> data) const { raw_.read(data); }
   void fillZero() { raw_.fillZero(); }
   /// Host memory only.
   std::span<T> mapped() const { return {reinterpret_cast<T*>(raw_.mapped()), count_}; }

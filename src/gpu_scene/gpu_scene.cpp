@@ -30,6 +30,7 @@ void addPathFeatures(const scene::Scene& scene, const PackedMedia& media, const 
   features.textures = surfaces.textured;
   features.spheres = !surfaces.spheres.empty();
   features.instances = !surfaces.instances.empty();
+  features.motion = !surfaces.motions.empty();
   features.passing = surfaces.passing;
   features.interiors = !surfaces.interiors.empty();
   features.emitters = !emitters.emitters.empty();
@@ -64,11 +65,13 @@ Features featuresOf(const scene::Scene& scene, const PackedMedia& media, const P
 
 } // namespace
 
-GpuScene::GpuScene(const gpu::Device& device, const scene::Scene& scene, const VolumeSet& volumes, GridLayout layout)
+GpuScene::GpuScene(const gpu::Device& device, const scene::Scene& scene, const VolumeSet& volumes, GridLayout layout,
+                   const Pose* previous)
     : layout_(layout), imageSize_(scene.film.size), bounds_(sceneBounds(scene, volumes)), centre_(bounds_.centre()),
+      cameraPosition_(scene.camera.position),
       packed_(packMedia(scene, volumes, centre_)), lights_(packLights(scene, bounds_, centre_)) {
   if (layout == GridLayout::Paths) {
-    addSurfaces(device, scene, volumes.meshes);
+    addSurfaces(device, scene, volumes.meshes, previous);
   }
   if (layout == GridLayout::Cells) {
     cellGrids_ = CellGrids(device, packed_, volumes);
@@ -122,8 +125,9 @@ GpuScene::GpuScene(const gpu::Device& device, const scene::Scene& scene, const V
   scene_ = gpu::Buffer<interop::Scene>(device, std::span<const interop::Scene>(&header, 1));
 }
 
-void GpuScene::addSurfaces(const gpu::Device& device, const scene::Scene& scene, const MeshSet& meshes) {
-  surfaces_ = packSurfaces(scene, meshes, packed_.indexOf, centre_);
+void GpuScene::addSurfaces(const gpu::Device& device, const scene::Scene& scene, const MeshSet& meshes,
+                           const Pose* previous) {
+  surfaces_ = packSurfaces(scene, meshes, packed_.indexOf, centre_, previous);
   for (std::size_t i = 0; i < surfaces_.interiors.size(); ++i) {
     if (surfaces_.interiors[i].medium != interop::kNoMedium) {
       packed_.media[surfaces_.interiors[i].medium].interiors |= 1u << i;

@@ -37,6 +37,7 @@ struct Features {
   bool textures = false;
   bool spheres = false;
   bool instances = false;
+  bool motion = false; ///< surfaces stood elsewhere in the previous frame
   bool passing = false;
   bool interiors = false;
   bool emitters = false;
@@ -58,9 +59,10 @@ enum class GridLayout {
 /// A scene in device memory. Owns everything; kernels borrow addresses.
 class GpuScene {
 public:
+  /// @param previous the frame before, for the motion of surfaces; nullptr: there is none.
   /// @throws Error if memory or image limits do not suffice.
   GpuScene(const gpu::Device& device, const scene::Scene& scene, const VolumeSet& volumes,
-           GridLayout layout = GridLayout::Atlas);
+           GridLayout layout = GridLayout::Atlas, const Pose* previous = nullptr);
 
   interop::Ptr<interop::Scene> ptr() const { return scene_.ptr(); }
   gpu::AtlasImages images() const { return atlas_.images(); }
@@ -84,9 +86,12 @@ public:
   const Bounds3& bounds() const { return bounds_; }
   /// World-space point that device coordinates are relative to.
   const glm::dvec3& centre() const { return centre_; }
+  /// In world space.
+  const glm::dvec3& cameraPosition() const { return cameraPosition_; }
 
 private:
-  void addSurfaces(const gpu::Device& device, const scene::Scene& scene, const MeshSet& meshes);
+  void addSurfaces(const gpu::Device& device, const scene::Scene& scene, const MeshSet& meshes,
+                   const Pose* previous);
   void uploadGrids(const gpu::Device& device);
   void uploadLights(const gpu::Device& device);
 
@@ -94,6 +99,7 @@ private:
   glm::uvec2 imageSize_;
   Bounds3 bounds_;
   glm::dvec3 centre_{0.0};
+  glm::dvec3 cameraPosition_{0.0};
   PackedMedia packed_;
   PackedLights lights_;
   PackedSurfaces surfaces_;

@@ -62,7 +62,7 @@ MeshSet loadMeshes(const scene::Scene& scene) {
     }
     const auto [entry, isNew] = loaded.try_emplace(object.file, set.models.size());
     if (isNew) {
-      set.models.push_back(geometry::loadModel(object.file));
+      set.models.push_back(geometry::loadModel(object.file, scene.animation.seconds));
       for (const std::string& warning : set.models.back().warnings) {
         set.notes.push_back(fmt::format("{}: {}", object.file, warning));
       }

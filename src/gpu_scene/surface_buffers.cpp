@@ -34,6 +34,7 @@ SurfaceBuffers::SurfaceBuffers(const gpu::Device& device, const PackedSurfaces& 
     instances_ = upload(device, surfaces.instances);
     materials_ = upload(device, surfaces.materials);
     interiors_ = upload(device, surfaces.interiors);
+    motions_ = upload(device, surfaces.motions);
     uploadTextures(device, surfaces.textures);
     interop::Surfaces header{};
     header.nodes = nodes_.ptr();
@@ -45,6 +46,7 @@ SurfaceBuffers::SurfaceBuffers(const gpu::Device& device, const PackedSurfaces& 
     header.materials = materials_.ptr();
     header.textures = textures_.ptr();
     header.interiors = interiors_.ptr();
+    header.motions = motions_.ptr();
     header.boundsMin = surfaces.bvh.bounds.min;
     header.boundsMax = surfaces.bvh.bounds.max;
     surfaces_ = gpu::Buffer<interop::Surfaces>(device, std::span<const interop::Surfaces>(&header, 1));
@@ -70,7 +72,7 @@ void SurfaceBuffers::uploadTextures(const gpu::Device& device, const std::vector
 
 std::size_t SurfaceBuffers::bytes() const {
   std::size_t sum = nodes_.bytes() + primitives_.bytes() + triangles_.bytes() + vertices_.bytes() + spheres_.bytes() +
-                    instances_.bytes() + materials_.bytes() + interiors_.bytes() + textures_.bytes() +
+                    instances_.bytes() + materials_.bytes() + interiors_.bytes() + motions_.bytes() + textures_.bytes() +
                     surfaces_.bytes() + emitterList_.bytes() + lightNodes_.bytes() + emitters_.bytes();
   for (const gpu::Buffer<std::uint32_t>& texels : texels_) {
     sum += texels.bytes();

@@ -31,6 +31,7 @@ private:
   gpu::Buffer<interop::Instance> instances_;
   gpu::Buffer<interop::Material> materials_;
   gpu::Buffer<interop::Interior> interiors_;
+  gpu::Buffer<interop::Motion> motions_;
   std::vector<gpu::Buffer<std::uint32_t>> texels_;
   gpu::Buffer<interop::Texture> textures_;
   gpu::Buffer<interop::Surfaces> surfaces_;

@@ -34,8 +34,9 @@ bool withoutArea(const interop::BvhPrimitive& triangle) {
 class SurfacePacker {
 public:
   SurfacePacker(const scene::Scene& scene, const MeshSet& meshes, const std::vector<std::uint32_t>& mediumIndex,
-                const glm::dvec3& centre, PackedSurfaces& out)
-      : scene_(scene), meshes_(meshes), centre_(centre), out_(out), materials_(scene, meshes, mediumIndex, out) {}
+                const glm::dvec3& centre, const SurfaceMotion& motions, PackedSurfaces& out)
+      : scene_(scene), meshes_(meshes), centre_(centre), motions_(motions), out_(out),
+        materials_(scene, meshes, mediumIndex, out) {}
 
   void run() {
     for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
@@ -61,8 +62,12 @@ private:
     const ObjectSource source = objectSource(object, meshes_, index);
     materials_.begin(index);
     winding_ = 0;
-    for (const glm::dmat4& place : placements(object.worldFromObject, object.instances)) {
+    const std::vector<glm::dmat4> places = placements(object.worldFromObject, object.instances);
+    for (const glm::dmat4& place : places) {
+      const auto copy = static_cast<std::size_t>(&place - places.data());
+      motion_ = motions_.indexOf(index, copy, 0);
       for (const ObjectSource::Part& part : source.parts) {
+        motion_ = motions_.indexOf(index, copy, static_cast<std::size_t>(&part - source.parts.data()));
         addPart(source, part, place, object.instances.size() > 1 || source.usesOf(part.mesh) > 1);
       }
       if (object.kind == scene::Object::Kind::Sphere) {
@@ -117,6 +122,7 @@ private:
       }
       triangle.material = material;
       triangle.emitter = addEmitter(primitive, material);
+      triangle.motion = &target == &world_ ? motion_ : interop::kNoMotion; // its instances' own holds
       out_.triangles.push_back(triangle);
       target.push_back({primitive, {}});
       countWinding(worldFromMesh, mesh, order);
@@ -151,6 +157,7 @@ private:
     interop::Instance instance{};
     instance.worldFromObject = glm::mat4x3(glm::dmat4x3(centredFromMesh));
     instance.objectFromWorld = glm::mat4x3(glm::dmat4x3(glm::inverse(centredFromMesh)));
+    instance.motion = motion_;
     out_.instances.push_back(instance);
   }
 
@@ -177,6 +184,7 @@ private:
     sphere.radius = static_cast<float>(object.radius * scale);
     sphere.material = materials_.device(geometry::kNone);
     sphere.emitter = interop::kNoEmitter;
+    sphere.motion = motion_;
     interop::BvhPrimitive primitive{sphere.centre, glm::vec3(sphere.radius, 0.0f, 0.0f), glm::vec3(0.0f), 0};
     primitive.id = interop::kPrimitiveSphere | static_cast<std::uint32_t>(out_.spheres.size()) |
                    (materials_.opaque(sphere.material) ? interop::kPrimitiveOpaque : 0u);
@@ -236,6 +244,7 @@ private:
   const scene::Scene& scene_;
   const MeshSet& meshes_;
   const glm::dvec3& centre_;
+  const SurfaceMotion& motions_;
   PackedSurfaces& out_;
   SurfaceMaterials materials_;
   std::vector<BvhInput> world_;
@@ -245,14 +254,19 @@ private:
   std::vector<geometry::Bvh> parts_;
   std::size_t degenerate_ = 0;
   int winding_ = 0;
+  std::uint32_t motion_ = interop::kNoMotion; ///< of the part at hand
 };
 
 } // namespace
 
 PackedSurfaces packSurfaces(const scene::Scene& scene, const MeshSet& meshes,
-                            const std::vector<std::uint32_t>& mediumIndex, const glm::dvec3& centre) {
+                            const std::vector<std::uint32_t>& mediumIndex, const glm::dvec3& centre,
+                            const Pose* previous) {
+  const SurfaceMotion motions =
+      previous != nullptr ? SurfaceMotion(poseOf(scene, meshes), *previous, centre) : SurfaceMotion();
   PackedSurfaces out;
-  SurfacePacker(scene, meshes, mediumIndex, centre, out).run();
+  SurfacePacker(scene, meshes, mediumIndex, centre, motions, out).run();
+  out.motions = motions.motions();
   return out;
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "geometry/bvh.h"
-#include "gpu_scene/meshes.h"
+#include "gpu_scene/motion.h"
 #include "interop/emitters.h"
 #include "interop/surfaces.h"
 
@@ -23,6 +23,7 @@ struct PackedSurfaces {
   std::vector<interop::Material> materials;
   std::vector<const geometry::Texture*> textures; ///< into the MeshSet
   std::vector<interop::Interior> interiors;
+  std::vector<interop::Motion> motions;
   std::vector<interop::Emitter> emitters; ///< emissive triangles and spheres
   std::vector<float> emitterScales;       ///< mean of the emission texture, one per emitter
   std::uint32_t cameraInteriors = 0;      ///< bits of the interiors that the camera stands in
@@ -33,7 +34,9 @@ struct PackedSurfaces {
 };
 
 /// @param mediumIndex per medium of the scene: its index among the device's media (interop::kNoMedium: none).
+/// @param previous the frame before, for motion; nullptr: there is none.
 PackedSurfaces packSurfaces(const scene::Scene& scene, const MeshSet& meshes,
-                            const std::vector<std::uint32_t>& mediumIndex, const glm::dvec3& centre);
+                            const std::vector<std::uint32_t>& mediumIndex, const glm::dvec3& centre,
+                            const Pose* previous = nullptr);
 
 } // namespace tyndall::gpu_scene

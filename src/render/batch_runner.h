@@ -30,16 +30,15 @@ public:
 
   std::uint32_t chunkPixels() const { return static_cast<std::uint32_t>(pixels_.size()); }
 
+  /// @param inputs what the pass borrows: the scene, and what else is its own; the rest is filled in here.
   /// @param stageCost steps that a stage counts for. @param collect takes each dispatch's counters.
   /// @return one entry per pixel, valid until the next call.
   template <class Collect>
-  std::span<const interop::PixelSums> run(const Pass& pass, interop::Ptr<interop::Scene> scene,
+  std::span<const interop::PixelSums> run(const Pass& pass, Inputs inputs,
                                           std::span<const std::uint32_t> pixels, SampleRange samples,
                                           std::uint32_t seed, std::uint32_t stageCost, Collect collect) {
     TYNDALL_CHECK(pixels.size() <= pixels_.size() && samples.count > 0);
     pixels_.write(pixels);
-    Inputs inputs{};
-    inputs.scene = scene;
     inputs.pixels = pixels_.ptr();
     inputs.sums = sums_.ptr();
     inputs.counters = counters_.ptr();

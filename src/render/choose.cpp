@@ -56,6 +56,8 @@ std::string needForPaths(const scene::Scene& scene, const gpu_scene::PackedMedia
     return std::holds_alternative<scene::SpotLight>(named.light);
   });
   return !scene.objects.empty() ? "there are surfaces"
+         : scene.render.integrator != scene::Integrator::Path ? "directions are guided"
+         : !scene.render.lightSampling ? "lights are found by directions alone"
          : scene.depth() != 1   ? "light scatters more than once"
          : media.chromatic      ? "extinction differs by channel"
          : spots                ? "there are spot lights"

@@ -4,11 +4,13 @@
 #include "gpu_scene/gpu_scene.h"
 #include "interop/pixel_sums.h"
 #include "passes/path/path_io.h"
+#include "render/guiding.h"
 #include "render/ray_choice.h"
 
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -40,6 +42,7 @@ struct EstimatorOptions {
       interop::kTechniqueLight | interop::kTechniqueDirection; ///< paths: interop::kTechnique*, one or both
   RayCaster rays = RayCaster::Auto; ///< paths
   bool aim = true; ///< paths: distances in homogeneous media drawn towards small lights as well
+  std::optional<GuidePlan> guide; ///< paths: directions are guided
   std::uint32_t plantedBug = 0;                                ///< tests only: interop::kBug*
 };
 
@@ -89,6 +92,8 @@ public:
   /// Flags and numbers of the pipeline by name: what was left out.
   virtual std::map<std::string, std::string> pipeline() const = 0;
   virtual CacheReport caches() const { return {}; }
+  /// Null where nothing is guided.
+  virtual const Guiding* guiding() const { return nullptr; }
 
   const Totals& totals() const { return totals_; }
   /// Starts counting anew.

@@ -47,12 +47,18 @@ passes::PathSpec pathSpecFor(const gpu_scene::Features& features, const Estimato
   spec.kAimed =
       features.aimed && options.aim && options.techniques == (interop::kTechniqueLight | interop::kTechniqueDirection);
   spec.kMediumTree = features.mediumTree;
+  if (options.guide) {
+    setGuideSpec(options.guide->settings, spec);
+  }
   spec.kPlantedBug = options.plantedBug;
   return spec;
 }
 
 PathTracer::PathTracer(const gpu::Device& device, const gpu_scene::GpuScene& scene, const EstimatorOptions& options)
     : scene_(scene), spec_(pathSpecFor(scene.features(), options)), runner_(device, options) {
+  if (options.guide) {
+    guiding_ = std::make_unique<Guiding>(device, scene, *options.guide, chunkPixels());
+  }
   choosePass(device, options.rays);
 }
 
@@ -85,6 +91,15 @@ void PathTracer::makeQueryPass(const gpu::Device& device) {
   pass_ = std::make_unique<passes::PathPass>(device, spec_, scene_.images(), &rays_->top());
 }
 
+interop::PathInputs PathTracer::inputs() const {
+  interop::PathInputs inputs{};
+  inputs.scene = scene_.ptr();
+  if (guiding_) {
+    inputs.guide = guiding_->ptr();
+  }
+  return inputs;
+}
+
 std::uint32_t PathTracer::stageCost() const { return kCastSteps + scene_.loopCount(); }
 
 /// Of a sample each of pixels from all over the picture.
@@ -92,7 +107,7 @@ double PathTracer::probeSeconds(const passes::PathPass& pass) {
   std::vector<std::uint32_t> pixels = dispatchOrder({glm::uvec2(0), scene_.imageSize()});
   pixels.resize(std::min({pixels.size(), std::size_t{chunkPixels()}, kProbePixels}));
   const auto start = std::chrono::steady_clock::now();
-  runner_.run(pass, scene_.ptr(), pixels, {0, 1}, 0, stageCost(), [](const interop::PathCounters&) {});
+  runner_.run(pass, inputs(), pixels, {0, 1}, 0, stageCost(), [](const interop::PathCounters&) {});
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
@@ -120,8 +135,17 @@ void PathTracer::collect(const interop::PathCounters& counters) {
 std::span<const interop::PixelSums> PathTracer::run(std::span<const std::uint32_t> pixels, SampleRange samples,
                                                     std::uint32_t seed) {
   totals_.samples += std::uint64_t(pixels.size()) * samples.count;
-  return runner_.run(*pass_, scene_.ptr(), pixels, samples, seed, stageCost(),
-                     [this](const interop::PathCounters& counters) { collect(counters); });
+  if (guiding_) {
+    guiding_->begin();
+  }
+  const std::span<const interop::PixelSums> sums =
+      runner_.run(*pass_, inputs(), pixels, samples, seed, stageCost(),
+                  [this](const interop::PathCounters& counters) { collect(counters); });
+  if (guiding_) {
+    guiding_->end();
+    guiding_->store().nextRound();
+  }
+  return sums;
 }
 
 } // namespace tyndall::render

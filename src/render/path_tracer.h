@@ -20,12 +20,14 @@ public:
   std::uint32_t chunkPixels() const override { return runner_.chunkPixels(); }
   std::size_t kernelBytes() const override { return pass_->kernel().spirvBytes(); }
   std::map<std::string, std::string> pipeline() const override;
+  const Guiding* guiding() const override { return guiding_.get(); }
 
 private:
   void choosePass(const gpu::Device& device, RayCaster wanted);
   void makeQueryPass(const gpu::Device& device);
   double probeSeconds(const passes::PathPass& pass);
   std::uint32_t stageCost() const;
+  interop::PathInputs inputs() const;
   void collect(const interop::PathCounters& counters);
 
   const gpu_scene::GpuScene& scene_;
@@ -33,6 +35,7 @@ private:
   std::optional<gpu_scene::RayQueryTree> rays_; ///< of the pass with ray queries
   std::unique_ptr<passes::PathPass> pass_;
   RayChoice rayChoice_;
+  std::unique_ptr<Guiding> guiding_; ///< null: paths are not guided
   BatchRunner<passes::PathPass, interop::PathInputs, interop::PathState, interop::PathCounters> runner_;
 };
 

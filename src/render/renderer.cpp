@@ -78,6 +78,9 @@ public:
     report_.totals = estimator_->totals();
     report_.caches = estimator_->caches(); // those of environments are made batch by batch
     report_.seconds = secondsSince(start_);
+    if (estimator_->guiding() != nullptr) {
+      report_.guide = estimator_->guiding()->report();
+    }
     return std::move(film_);
   }
 

@@ -48,7 +48,9 @@ void Tracer::collect(const interop::TraceCounters& counters) {
 std::span<const interop::PixelSums> Tracer::run(std::span<const std::uint32_t> pixels, SampleRange samples,
                                                 std::uint32_t seed) {
   totals_.samples += std::uint64_t(pixels.size()) * samples.count;
-  return runner_.run(pass_, scene_.ptr(), pixels, samples, seed, 1 + scene_.loopCount(),
+  interop::TraceInputs inputs{};
+  inputs.scene = scene_.ptr();
+  return runner_.run(pass_, inputs, pixels, samples, seed, 1 + scene_.loopCount(),
                      [this](const interop::TraceCounters& counters) { collect(counters); });
 }
 

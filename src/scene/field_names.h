@@ -32,6 +32,11 @@ inline constexpr NameTable<Object::Kind, 4> kObjectTypes{{{"mesh", Object::Kind:
                                                           {"quad", Object::Kind::Quad},
                                                           {"box", Object::Kind::Box},
                                                           {"sphere", Object::Kind::Sphere}}};
+inline constexpr NameTable<Integrator, 3> kIntegrators{
+    {{"path", Integrator::Path}, {"mcpg-paper", Integrator::McpgPaper}, {"mcpg", Integrator::Mcpg}}};
+inline constexpr NameTable<GuideScore, 2> kGuideScores{{{"path", GuideScore::Path}, {"cache", GuideScore::Cache}}};
+inline constexpr NameTable<Interpolation, 2> kInterpolations{
+    {{"linear", Interpolation::Linear}, {"step", Interpolation::Step}}};
 inline constexpr std::array kMaterialTypes{
 #define X(Name, prefix, id, sceneName) std::pair<std::string_view, MaterialId>{sceneName, MaterialId::Name},
     TYNDALL_MATERIAL_LIST(X)

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "scene/fields_animation.h"
+#include "scene/fields_guide.h"
 #include "scene/fields_lights.h"
 #include "scene/fields_media.h"
 #include "scene/fields_surfaces.h"
 
 /// The keys of a scene file, once: name, meaning, range; this file and the fields_*.h that it includes. Reader, writer
 /// and schema are visitors of these functions. A visitor offers type, choice, word, text, file, number, whole, flag,
-/// point, direction, triple, pair, object, optional, list, transform, transforms and matrix, each (key, target, [range
+/// point, direction, triple, pair, object, optional, list, transform, transforms, matrix and keys, each (key, target, [range
 /// or names,] help), and three modifiers: required() for the next key, applies(condition, when) for all the following
 /// ones, always() to end that. A triple is one number for all three components, or three. type() is required; it
 /// returns false if the type cannot be told, and the rest of that object is then left alone.
@@ -51,6 +53,9 @@ void fields(V& v, RenderSettings& render) {
   v.whole("seed", render.seed, WholeRange{0, 0xffffffffu}, "of the random numbers");
   v.whole("depth", render.depth, WholeRange{0, 1u << 16},
           "scattering events at most, 0 for unlimited; null: 1 without objects, else unlimited");
+  v.choice("integrator", render.integrator, Names<Integrator>(kIntegrators), "how directions of paths are drawn");
+  v.flag("light_sampling", render.lightSampling,
+         "send shadow rays to lights; false: lights that have a size are found by directions alone");
 }
 
 template <class V>
@@ -59,10 +64,15 @@ void fields(V& v, Scene& scene) {
   v.object("camera", scene.camera, "where the picture is taken from");
   v.object("film", scene.film, "what the picture is");
   v.object("render", scene.render, "how much work goes into it");
+  if (scene.guide.preset != scene.render.integrator) {
+    scene.guide = guideSettings(scene.render.integrator); // what is not given is the integrator's own
+  }
+  v.object("guide", scene.guide, "path guiding, for integrators \"mcpg\" and \"mcpg-paper\"");
   v.list("media", scene.media, "what fills space");
   v.list("lights", scene.lights, "what shines from outside the media");
   v.list("materials", scene.materials, "what surfaces are made of");
   v.list("objects", scene.objects, "surfaces");
+  v.object("animation", scene.animation, "what moves from frame to frame");
 }
 
 } // namespace tyndall::scene

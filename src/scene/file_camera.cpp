@@ -35,13 +35,13 @@ Camera cameraFrom(const geometry::ModelCamera& model) {
 
 } // namespace
 
-void resolveFileCamera(Camera& camera, const json::Value& root, Findings& findings) {
+void resolveFileCamera(Camera& camera, double seconds, const json::Value& root, Findings& findings) {
   CheckReport report(root, findings);
   if (camera.kind != Camera::Kind::File || report.errorIn("camera")) {
     return;
   }
   try {
-    const std::vector<geometry::ModelCamera> cameras = geometry::loadModel(camera.file).cameras;
+    const std::vector<geometry::ModelCamera> cameras = geometry::loadModel(camera.file, seconds).cameras;
     const auto wanted = std::find_if(cameras.begin(), cameras.end(), [&](const geometry::ModelCamera& candidate) {
       return camera.name.empty() || candidate.name == camera.name;
     });
@@ -51,7 +51,9 @@ void resolveFileCamera(Camera& camera, const json::Value& root, Findings& findin
     } else if (wanted == cameras.end()) {
       report.error("camera.name", "is no camera of the file, which has " + namesOf(cameras));
     } else {
+      const std::string file = camera.file;
       camera = cameraFrom(*wanted);
+      camera.file = file;
     }
   } catch (const Error& error) {
     report.error("camera.file", error.what());

@@ -9,6 +9,6 @@ namespace tyndall::scene {
 
 /// Puts the camera of a glTF file in the place of one of kind File; leaves others alone. Reports a file that cannot be
 /// read, one without cameras, and a name that it does not have, with those that it has.
-void resolveFileCamera(Camera& camera, const json::Value& root, Findings& findings);
+void resolveFileCamera(Camera& camera, double seconds, const json::Value& root, Findings& findings);
 
 } // namespace tyndall::scene

@@ -56,4 +56,16 @@ std::string relativeName(const std::string& file, const fs::path& folder) {
   return absolute.lexically_relative(from).generic_string();
 }
 
+void mapFileNames(json::Value& value, bool isName, const std::function<std::string(const json::Value&)>& replacement) {
+  if (isName && value.kind == json::Kind::String) {
+    value.text = replacement(value);
+  }
+  for (json::Value& item : value.items) {
+    mapFileNames(item, false, replacement);
+  }
+  for (json::Member& member : value.members) {
+    mapFileNames(member.value, member.key == "file", replacement);
+  }
+}
+
 } // namespace tyndall::scene

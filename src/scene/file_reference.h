@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "scene/json.h"
+
 #include <filesystem>
+#include <functional>
 #include <string>
 
 namespace tyndall::scene {
@@ -18,5 +21,8 @@ FileReference resolveFile(const std::string& name, const std::filesystem::path& 
 
 /// `file` as it should be written into a scene file in `folder`.
 std::string relativeName(const std::string& file, const std::filesystem::path& folder);
+
+/// Replaces the file names in a value: the texts of its members "file", and its own if it `isName`.
+void mapFileNames(json::Value& value, bool isName, const std::function<std::string(const json::Value&)>& replacement);
 
 } // namespace tyndall::scene

@@ -207,4 +207,29 @@ std::string inQuotes(std::string_view text) {
   return result + '"';
 }
 
+std::string toText(const Value& value) {
+  switch (value.kind) {
+  case Kind::Invalid:
+  case Kind::Null:
+    return "null";
+  case Kind::Boolean:
+    return value.boolean ? "true" : "false";
+  case Kind::Number:
+    return value.text;
+  case Kind::String:
+    return inQuotes(value.text);
+  case Kind::Array:
+  case Kind::Object:
+    break;
+  }
+  std::string inside;
+  for (const Value& item : value.items) {
+    inside += (inside.empty() ? "" : ", ") + toText(item);
+  }
+  for (const Member& member : value.members) {
+    inside += (inside.empty() ? "" : ", ") + inQuotes(member.key) + ": " + toText(member.value);
+  }
+  return value.kind == Kind::Array ? "[" + inside + "]" : "{" + inside + "}";
+}
+
 } // namespace tyndall::scene::json

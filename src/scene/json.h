@@ -69,4 +69,7 @@ std::string inWords(const Value& value);
 /// Text as a JSON string, quotes included.
 std::string inQuotes(std::string_view text);
 
+/// The value as JSON, in one line. Wants no Invalid in it.
+std::string toText(const Value& value);
+
 } // namespace tyndall::scene::json

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/load.h"
 
-#include "scene/file_camera.h"
-
 #include "base/file.h"
+#include "scene/animation.h"
 #include "scene/checks.h"
+#include "scene/file_camera.h"
 #include "scene/overrides.h"
 #include "scene/reader.h"
 
@@ -58,7 +58,7 @@ bool LoadResult::ok() const {
 }
 
 LoadResult parseScene(const std::string& text, const std::string& name, const fs::path& folder,
-                      const std::vector<Override>& overrides) {
+                      const std::vector<Override>& overrides, double frame) {
   json::Parsed parsed = json::parse(text);
   Findings findings;
   for (json::Mistake& mistake : parsed.mistakes) {
@@ -67,10 +67,12 @@ LoadResult parseScene(const std::string& text, const std::string& name, const fs
   LoadResult result;
   if (parsed.complete) {
     applyOverrides(overrides, parsed.root, findings);
+    Animation animation = animate(parsed.root, overrides, frame, folder, findings);
     ReadContext context{.findings = findings, .folder = folder};
     readRoot(parsed.root, context, result.scene);
+    result.scene.animation = std::move(animation);
     checkScene(result.scene, parsed.root, findings);
-    resolveFileCamera(result.scene.camera, parsed.root, findings);
+    resolveFileCamera(result.scene.camera, result.scene.animation.seconds, parsed.root, findings);
   }
   if (result.scene.name.empty()) {
     result.scene.name = fs::path(name).stem().string();
@@ -82,14 +84,14 @@ LoadResult parseScene(const std::string& text, const std::string& name, const fs
   return result;
 }
 
-LoadResult readScene(const fs::path& path, const std::vector<Override>& overrides) {
+LoadResult readScene(const fs::path& path, const std::vector<Override>& overrides, double frame) {
   const std::string name = path.string();
   std::error_code ignored;
   if (fs::is_regular_file(path, ignored) && fs::file_size(path, ignored) > kLargestFile) {
     return failed({name, 1, 1}, "is larger than 4 MB, which no scene is; name a .json scene file");
   }
   try {
-    return parseScene(readTextFile(path), name, path.parent_path(), overrides);
+    return parseScene(readTextFile(path), name, path.parent_path(), overrides, frame);
   } catch (const Error& error) {
     return failed({}, error.what());
   }

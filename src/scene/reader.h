@@ -70,6 +70,8 @@ public:
   void transform(std::string_view key, glm::dmat4& targetFromSource, std::string_view);
   void transforms(std::string_view key, std::vector<glm::dmat4>& targetFromSource, std::string_view);
 
+  void keys(std::string_view key, Track& track, std::string_view);
+
   template <class T>
   void object(std::string_view key, T& target, std::string_view) {
     if (const json::Value* value = take(key)) {
@@ -114,6 +116,8 @@ private:
   void reject(const json::Value& value, std::string_view key, const std::string& needs);
   std::optional<std::size_t> chosen(std::string_view key, std::span<const std::string_view> words);
   std::optional<glm::dvec3> three(const json::Value& value, std::string_view key);
+  /// Whether the pair can follow the keys read so far; reports why not.
+  bool isKey(const json::Value& pair, const std::string& key, const std::vector<Key>& before, Interpolation how);
   /// The product of a list of steps, the first one applied first; reports what is wrong with them.
   glm::dmat4 composed(const json::Value& steps, const std::string& path);
   bool isList(const json::Value& value, const std::string& path);

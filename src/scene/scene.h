@@ -4,6 +4,8 @@
 #include "geometry/model.h"
 #include "math/bounds.h"
 #include "phase/list.h"
+#include "scene/guide_settings.h"
+#include "scene/json.h"
 
 #include <glm/glm.hpp>
 
@@ -142,6 +144,8 @@ struct RenderSettings {
   std::uint32_t samples = 64; ///< per pixel
   std::uint32_t seed = 0;
   std::optional<std::uint32_t> depth; ///< scattering events, 0 = unlimited; empty: 1 without objects, else unlimited
+  Integrator integrator = Integrator::Path;
+  bool lightSampling = true; ///< false: lights that have a size are found by directions alone
 };
 
 /// A surface, or several. Its triangles have their file's materials unless `material` names one of the scene's.
@@ -165,15 +169,46 @@ struct Object {
   double radius = 1.0;
 };
 
+enum class Interpolation { Linear, Step };
+
+struct Key {
+  double frame = 0.0;
+  json::Value value; ///< of the track's target at that frame
+};
+
+/// Moves one value of a scene file. It is held before the first and after the last key.
+struct Track {
+  std::string target; ///< path, as for an Override
+  Interpolation interpolation = Interpolation::Linear;
+  std::vector<Key> keys; ///< at least one, frames ascending
+
+  bool movesFileName() const { return target.ends_with(".file"); }
+};
+
+struct Animation {
+  /// A camera, medium or object that a track moves. Its values in a Scene are composed and settled; to write it out,
+  /// what the tracks name must be there, such as the steps of its transform.
+  struct Element {
+    std::string path; ///< "objects.2"
+    json::Value value;
+  };
+  double framesPerSecond = 24.0;
+  std::vector<Track> tracks; ///< already applied: a Scene is that of one frame
+  double seconds = 0.0;      ///< of that frame, for the animations of glTF files
+  std::vector<Element> elements;
+};
+
 struct Scene {
   std::string name;
   Camera camera;
   FilmSettings film;
   RenderSettings render;
+  GuideSettings guide; ///< of render.integrator
   std::vector<Medium> media;
   std::vector<NamedLight> lights;
   std::vector<geometry::Material> materials; ///< unique names; no textures
   std::vector<Object> objects;
+  Animation animation;
 
   /// Scattering events at most, 0 = unlimited.
   std::uint32_t depth() const { return render.depth.value_or(objects.empty() ? 1 : 0); }

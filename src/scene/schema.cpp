@@ -83,6 +83,10 @@ public:
   void transforms(std::string_view key, std::vector<glm::dmat4>&, std::string_view help) {
     add(key, {{"type", "array"}, {"items", stepList()}}, help);
   }
+  void keys(std::string_view key, Track&, std::string_view help) {
+    add(key, {{"type", "array"}, {"minItems", 1}, {"items", {{"type", "array"}, {"minItems", 2}, {"maxItems", 2}}}},
+        help);
+  }
   template <class T>
   void object(std::string_view key, T& target, std::string_view help) {
     add(key, objectSchema(target), help);

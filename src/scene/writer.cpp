@@ -29,9 +29,13 @@ std::string transformText(const glm::dmat4& targetFromSource) {
 
 } // namespace
 
-Writer::Writer(std::string& out, std::size_t indent, std::optional<std::filesystem::path> folder)
-    : out_(out), indent_(indent), folder_(std::move(folder)) {
+Writer::Writer(const Target& target, std::size_t indent, std::string path)
+    : target_(target), out_(target.out), indent_(indent), path_(std::move(path)) {
   out_ += '{';
+}
+
+std::string Writer::pathOf(std::string_view key) const {
+  return path_.empty() ? std::string(key) : fmt::format("{}.{}", path_, key);
 }
 
 void Writer::put(std::string_view key, const std::string& value) {
@@ -46,7 +50,7 @@ void Writer::put(std::string_view key, const std::string& value) {
 
 void Writer::file(std::string_view key, std::string& target, std::string_view) {
   if (active_) {
-    put(key, json::inQuotes(folder_ ? relativeName(target, *folder_) : target));
+    put(key, json::inQuotes(target_.folder ? relativeName(target, *target_.folder) : target));
   }
 }
 
@@ -85,12 +89,39 @@ void Writer::transforms(std::string_view key, std::vector<glm::dmat4>& targetFro
   put(key, text + (targetFromSource.empty() ? "]" : "\n" + std::string(indent_ + 2, ' ') + "]"));
 }
 
+std::string Writer::written(json::Value value, bool isName) const {
+  if (target_.folder) {
+    mapFileNames(value, isName, [this](const json::Value& name) { return relativeName(name.text, *target_.folder); });
+  }
+  return json::toText(value);
+}
+
+bool Writer::writeElement(const std::string& path) {
+  for (const Animation::Element& element : target_.elements) {
+    if (element.path == path) {
+      out_ += written(element.value, false);
+      return true;
+    }
+  }
+  return false;
+}
+
+void Writer::keys(std::string_view key, Track& track, std::string_view) {
+  std::string text = "[";
+  for (const Key& each : track.keys) {
+    text += fmt::format("{}[{}, {}]", text.size() > 1 ? ", " : "", shortest(each.frame),
+                        written(each.value, track.movesFileName()));
+  }
+  put(key, text + "]");
+}
+
 void Writer::finish() { out_ += empty_ ? "}" : "\n" + std::string(indent_, ' ') + "}"; }
 
 std::string toJson(const Scene& scene, const std::filesystem::path& folder) {
   std::string text;
   Scene visited = scene; // visitors take their targets by reference
-  Writer writer(text, 0, folder.empty() ? std::nullopt : std::optional(folder));
+  const Writer::Target target{text, folder.empty() ? std::nullopt : std::optional(folder), scene.animation.elements};
+  Writer writer(target, 0, "");
   fields(writer, visited);
   writer.finish();
   return text + '\n';

@@ -14,8 +14,13 @@ namespace tyndall::scene {
 /// The visitor of fields.h that writes one object with every key that applies.
 class Writer {
 public:
-  /// `folder`: file names are written relative to it; nullopt = as they are in the scene.
-  Writer(std::string& out, std::size_t indent, std::optional<std::filesystem::path> folder);
+  struct Target {
+    std::string& out;
+    std::optional<std::filesystem::path> folder;     ///< file names are written relative to it; nullopt: as they are
+    const std::vector<Animation::Element>& elements; ///< written as they are
+  };
+  /// `path`: of the object in the scene.
+  Writer(const Target& target, std::size_t indent, std::string path);
 
   Writer& required() { return *this; }
   void applies(bool active, const std::string&) { active_ = active; }
@@ -53,11 +58,13 @@ public:
   void transform(std::string_view key, glm::dmat4& targetFromSource, std::string_view);
   void transforms(std::string_view key, std::vector<glm::dmat4>& targetFromSource, std::string_view);
 
+  void keys(std::string_view key, Track& track, std::string_view);
+
   template <class T>
   void object(std::string_view key, T& target, std::string_view) {
     if (active_) {
       put(key, "");
-      writeObject(target, indent_ + 2);
+      writeObject(target, indent_ + 2, pathOf(key));
     }
   }
   template <class T, class AsView = std::identity>
@@ -74,7 +81,7 @@ public:
     for (T& item : target) {
       out_ += &item == target.data() ? "\n" : ",\n";
       out_.append(indent_ + 4, ' ');
-      writeObject(item, indent_ + 4);
+      writeObject(item, indent_ + 4, pathOf(key) + '.' + std::to_string(&item - target.data()));
     }
     out_ += target.empty() ? "]" : "\n" + std::string(indent_ + 2, ' ') + "]";
   }
@@ -84,16 +91,25 @@ public:
 private:
   /// Writes "key": value if the key applies.
   void put(std::string_view key, const std::string& value);
+  std::string pathOf(std::string_view key) const;
+  /// A value of the file, with its names as `folder` wants them.
+  std::string written(json::Value value, bool isName) const;
+  /// Writes what is to be written as it is; false if the object at `path` is not.
+  bool writeElement(const std::string& path);
   template <class T>
-  void writeObject(T& target, std::size_t indent) {
-    Writer writer(out_, indent, folder_);
+  void writeObject(T& target, std::size_t indent, const std::string& path) {
+    if (writeElement(path)) {
+      return;
+    }
+    Writer writer(target_, indent, path);
     fields(writer, target);
     writer.finish();
   }
 
+  const Target& target_;
   std::string& out_;
   std::size_t indent_;
-  std::optional<std::filesystem::path> folder_;
+  std::string path_;
   bool active_ = true;
   bool empty_ = true;
 };

@@ -102,7 +102,7 @@ RayWorld::RayWorld(Soup world, const std::vector<Soup>& meshes, const std::vecto
   }
   for (const Place& place : places) {
     instances.push_back({glm::mat4x3(glm::mat4(glm::inverse(place.worldFromObject))),
-                         glm::mat4x3(glm::mat4(place.worldFromObject)), roots[place.mesh], 0});
+                         glm::mat4x3(glm::mat4(place.worldFromObject)), roots[place.mesh], interop::kNoMotion});
     meshRanges.push_back(ranges[place.mesh]);
   }
   for (const BvhPrimitive& primitive : bvh.primitives) {

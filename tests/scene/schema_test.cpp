@@ -85,7 +85,7 @@ bool meets(const json& schema, const json& value, const std::string& path, std::
       (value.size() < schema.value("minItems", 0u) || value.size() > schema.value("maxItems", 1000u))) {
     return breach("length");
   }
-  for (std::size_t i = 0; value.is_array() && i < value.size(); ++i) {
+  for (std::size_t i = 0; value.is_array() && schema.contains("items") && i < value.size(); ++i) {
     if (!meets(schema["items"], value[i], path + "." + std::to_string(i), why)) {
       return false;
     }
@@ -141,6 +141,8 @@ TEST(SceneSchema, RefusesWhatTheReaderRefuses) {
                                      {"materials.0.name", "5"},         {"materials.3.ior", "0.5"},
                                      {"objects.0.instances.0", "[5]"}, {"objects.0.type", "\"torus\""},
                                      {"objects.3.radius", "0"},         {"media", "{}"},
+                                     {"animation.tracks.0.keys", "[]"}, {"animation.tracks.0.keys.1", "[1, 2, 3]"},
+                                     {"animation.frames_per_second", "0"},
                                      {"render.samples", "1.5"}};
   for (const Override& change : broken) {
     std::string pointer = "/" + change.path;
@@ -167,6 +169,7 @@ TEST(SceneFormatPage, NamesEveryKeyAndEveryWord) {
     }
   };
   words(kCameraTypes);
+  words(kInterpolations);
   words(kViews);
   words(kShapeTypes);
   words(kEmissionTypes);

@@ -108,8 +108,14 @@ inline const std::string& everything() {
     {"name": "lamp", "type": "quad", "material": "wall", "origin": [1, 2, 3], "edge_u": [0, 1, 0], "edge_v": [0, 0, 1]},
     {"name": "cup", "type": "box", "min": [-1, -2, -3], "max": [1, 2, 3], "material": "glass", "medium": "tea",
      "priority": 7},
-    {"name": "ball", "type": "sphere", "centre": [0.5, 0.25, 0], "radius": 0.125, "material": "gold"}
-  ]
+    {"name": "ball", "type": "sphere", "centre": [0.5, 0.25, 0], "radius": 0.125, "material": "gold",
+     "transform": [{"translate": [0, 0, 0]}]}
+  ],
+  "animation": {"frames_per_second": 25, "tracks": [
+    {"target": "lights.beam.position", "keys": [[1, [3, 2, 1]], [24, [1, 2, 3]]]},
+    {"target": "objects.ball.transform.0.translate", "interpolation": "linear", "keys": [[1, [0, 0, 0]], [24.5, [2, 0, 0]]]},
+    {"target": "lights.map.file", "interpolation": "step", "keys": [[-3, "sky.exr"]]}
+  ]}
 }
 )";
   return text;

@@ -215,6 +215,7 @@ void expectSameObject(const Object& read, const Object& written) {
 
 TEST(SurfaceRoundTrip, EveryFieldSurvivesToTheLastBit) {
   Scene scene = parse(everything()).scene;
+  scene.animation = {}; // its tracks would move what is scrambled
   Numbers numbers;
   for (int round = 0; round < 50; ++round) {
     scramble(scene, numbers);

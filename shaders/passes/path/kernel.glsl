@@ -11,16 +11,17 @@ TYNDALL_PATH_SPEC(SPEC)
 #undef SPEC
 const bool kWeighted = false; // the walk stops at collisions
 
+layout(push_constant, scalar) uniform Push { PathInputs io; };
+
 // The sample in flight. Private memory, and no argument of the stages: copies of it at every call are what compiling costs.
 PathState path;
 
 #include "passes/path/stages.glsl"
 
 layout(local_size_x = 64) in;
-layout(push_constant, scalar) uniform Push { PathInputs io; };
 
 // Adds the finished sample to the batch. A sample that is not finite is dropped and counted.
-void finishSample() {
+void finishSample(inout Rng rng) {
   const vec3 total = path.radiance + path.background;
   if (!isFinite(total) || !isFinite(path.depth)) {
     atomicAdd(io.counters.at[0].nonFinite, 1u);
@@ -32,6 +33,9 @@ void finishSample() {
       path.sums.moments[c] += path.radiance[c];
       path.sums.extras[c] += path.background[c];
       path.sums.extras[5 + c] += path.albedo[c];
+    }
+    if (kGuide && kGuideLearn) {
+      learnFromPath(io.guide, uvec2(path.slot, path.sampleIndex << 16), rng);
     }
     path.sums.moments[3] += path.transmittance;
     path.sums.extras[3] += path.depth;
@@ -96,7 +100,7 @@ bool runStage(uvec2 pixel, inout Rng rng) {
     break;
   }
   if (path.stage == kStageDone) {
-    finishSample();
+    finishSample(rng);
   }
   return path.stage != kStageDone;
 }
@@ -109,6 +113,8 @@ void beginPath(uint slot) {
   path.rng = uvec4(0u);
   path.target = kTargetPath;
   path.travelled = 0.0;
+  path.recordCount = 0u;
+  path.recordStage = kRecordClosed;
   path.pending = vec3(0.0);
   path.glow = vec3(0.0);
   path.walk = walkBegin(vec3(0.0), vec3(0.0), 0.0, kWalkTransmit, 0u);
@@ -118,6 +124,19 @@ void beginPath(uint slot) {
   }
   for (int i = 0; i < 8; ++i) {
     path.sums.extras[i] = 0.0;
+  }
+}
+
+void countGuiding() {
+  GuideCountersPtr counters = io.guide.at[0].counters;
+  atomicAdd(counters.at[0].vertices, mixtureVertices);
+  atomicAdd(counters.at[0].states, mixtureStates);
+  atomicAdd(counters.at[0].guided, mixtureGuided);
+  if (kGuideLearn) {
+    atomicAdd(counters.at[0].accepted, learnAccepted);
+    atomicAdd(counters.at[0].forgotten, learnForgotten);
+    atomicAdd(counters.at[0].evicted, storeEvicted);
+    atomicAdd(counters.at[0].unsound, learnUnsound);
   }
 }
 
@@ -163,6 +182,9 @@ void main() {
   if (kCount) {
     atomicAdd(io.counters.at[0].lookups, counts.lookups);
     atomicAdd(io.counters.at[0].segments, segments);
+  }
+  if (kGuide && kCount) {
+    countGuiding();
   }
   if (counts.exceeded > 0u) {
     atomicAdd(io.counters.at[0].majorantExceeded, counts.exceeded);

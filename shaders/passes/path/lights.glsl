@@ -8,6 +8,7 @@
 #include "light/tree.glsl"
 #include "passes/path/emission.glsl"
 #include "passes/path/aim_density.glsl"
+#include "passes/path/direction.glsl"
 #include "passes/path/surface.glsl"
 
 const bool kSampleLights = (kTechniques & kTechniqueLight) != 0u;
@@ -55,7 +56,7 @@ struct LightRequest {
   float pdf;           // density of light sampling [1/sr], or with `delta` the probability of the choice
   bool delta;
   uint medium;         // emissive medium whose line is gathered, or kNoMedium; `pdf` is then the probability of its choice
-  float directionPdf;  // density of scatterSample for that line
+  float directionPdf;  // density of directionSample for that line
 };
 
 LightRequest noRequest() {
@@ -184,7 +185,7 @@ LightRequest lightRequest(ScenePtr scene, ScatterPoint vertex, inout Rng rng) {
     request.value = vec3(0.0);
     return request;
   }
-  const vec4 scattered = scatterEvalPdf(vertex, request.direction);
+  const vec4 scattered = directionEvalPdf(vertex, request.direction);
   request.value *= scattered.xyz;
   request.directionPdf = scattered.w;
   if (request.medium == kNoMedium) {

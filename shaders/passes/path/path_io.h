@@ -5,6 +5,7 @@
 #ifndef TYNDALL_PATH_IO_H
 #define TYNDALL_PATH_IO_H
 
+#include "interop/guide.h"
 #include "interop/pixel_sums.h"
 #include "interop/planted_bugs.h"
 #include "interop/scene.h"
@@ -41,6 +42,17 @@
   SPEC(uint, kTechniques,      25, 3u)          /* kTechnique* below */                       \
   SPEC(bool, kAimed,           28, true)        /* small lights in homogeneous media */       \
   SPEC(bool, kMediumTree,      27, false)       /* many grid media */                         \
+  SPEC(bool, kGuide,           29, false)       /* chains guide directions */                 \
+  SPEC(uint, kGuideLoads,      30, 2u)          /* cells loaded at a vertex */                \
+  SPEC(uint, kGuideStates,     31, 4u)          /* of a cell */                               \
+  SPEC(bool, kGuideStatic,     32, true)        /* a coarse grid beside the adaptive one */   \
+  SPEC(bool, kGuideNormals,    33, false)       /* adaptive cells differ by normal */         \
+  SPEC(bool, kGuideCache,      34, false)       /* scores from the radiance cache */          \
+  SPEC(bool, kGuideShare,      35, true)        /* the share of scattering is learnt */       \
+  SPEC(bool, kGuideForget,     36, false)       /* states whose light is gone lose weight */  \
+  SPEC(bool, kGuideMotion,     37, false)       /* targets move */                            \
+  SPEC(bool, kGuideLearn,      38, true)        /* the store is written */                    \
+  SPEC(bool, kGuideLog,        39, false)       /* ... in a second step, in order */          \
   SPEC(uint, kPlantedBug,      26, 0u)          /* tests: kBug*; 0 = none */
 // clang-format on
 
@@ -118,6 +130,8 @@ struct PathState {
   PathHit hit;           // of the ray in flight
   PathHit nextHit;       // of `next`, if it has been cast
   uint nextCast;         // 1: it has been
+  uint recordCount;      // vertices that have been recorded (records.glsl)
+  uint recordStage;      // kRecord*: what the newest one waits for
   float aim;             // where on the path's ray an emitter is chosen to aim at; < 0: nowhere
   float collisionT;      // of the nearest collision in a homogeneous medium
   uint collisionMedium;
@@ -140,6 +154,7 @@ struct PathInputs {
   GPU_PTR(PathState) suspendedIn;
   GPU_PTR(PathState) suspendedOut;
   GPU_PTR(PathCounters) counters;
+  GPU_PTR(Guide) guide;            // kGuide
   uint count;                      // pixels, or suspended states when resuming
   uint firstSample;                // index of the batch's first sample within the pixel
   uint sampleCount;                // samples of this batch to take

@@ -4,6 +4,7 @@
 #define TYNDALL_PATH_RAYS_GLSL
 
 #include "passes/path/aim.glsl"
+#include "passes/path/records.glsl"
 #include "passes/path/surface.glsl"
 
 const uint kStageSample = 0u;
@@ -76,6 +77,8 @@ void stageSample(ScenePtr scene, uvec2 pixel, uint seed, uint sampleIndex, inout
   path.ratio = vec3(1.0);
   path.pending = vec3(0.0);
   path.nextCast = 0u;
+  path.recordCount = 0u;
+  path.recordStage = kRecordClosed;
   path.hero = kChromatic ? min(uint(rngFloat(rng) * 3.0), 2u) : 0u;
   path.events = 0u;
   path.radiance = vec3(0.0);

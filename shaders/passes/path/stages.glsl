@@ -26,6 +26,9 @@ void goOn(ScenePtr scene, inout Rng rng) {
     return;
   }
   path.stage = kStageDone;
+  if (kGuide) {
+    recordLeaves(io.guide);
+  }
   if (path.throughput != vec3(0.0)) {
     castPath(path.next, 0.0);
   }
@@ -63,10 +66,14 @@ void escape(ScenePtr scene) {
 
 // Draws the direction in which the path goes on. Leaves a throughput of 0 where it ends.
 void drawDirection(ScenePtr scene, ScatterPoint vertex, inout Rng rng) {
-  ScatterSample drawn;
-  drawn.weight = vec3(0.0);
-  if (path.events < scene.at[0].maxEvents || kFindable) {
-    drawn = scatterSample(vertex, rng);
+  if (path.events >= scene.at[0].maxEvents && !kFindable) {
+    path.throughput = vec3(0.0);
+    return;
+  }
+  const DirectionSample direction = directionSample(vertex, rng);
+  const ScatterSample drawn = direction.drawn;
+  if (kGuide && kGuideLearn && !scatterIsDelta(vertex)) {
+    recordVertex(io.guide, vertex, direction, path.throughput);
   }
   path.throughput *= drawn.weight;
   if (path.events >= kRouletteEvents) {
@@ -86,6 +93,12 @@ void scatter(ScenePtr scene, ScatterPoint vertex, inout Rng rng) {
   const vec3 throughput = path.throughput;
   LightRequest request;
   request.value = vec3(0.0);
+  if (kGuide && !scatterIsDelta(vertex)) {
+    if (kGuideLearn) {
+      recordArrives(io.guide, vertex, throughput, rng);
+    }
+    prepareDirection(io.guide, vertex, rng);
+  }
   if ((kEmitters || kDistantDeltas || kDistantAreas) && !scatterIsDelta(vertex)) {
     request = lightRequest(scene, vertex, rng);
   }
@@ -108,6 +121,9 @@ void recordFirst(float t, vec3 albedo) {
 }
 
 void arriveInMedium(ScenePtr scene, float t, uint medium, inout Rng rng) {
+  if (kGuide) {
+    recordMeets(io.guide, path.ray.origin + t * path.ray.direction);
+  }
   if (path.events >= scene.at[0].maxEvents) {
     path.stage = kStageDone; // the last ray only looked for light
     return;
@@ -136,6 +152,9 @@ void arriveOnSurface(ScenePtr scene, HitAttributes hit, SurfacePass through, ino
   if (kPassing && through.passes) {
     castPath(through.beyond, kPlantedBug == kBugLineRestart ? 0.0 : path.vertex.travelled + path.hit.t);
     return;
+  }
+  if (kGuide) {
+    recordMeets(io.guide, hit.place.position);
   }
   const SurfaceVertex surface = surfaceVertex(scene, hit);
   if (kEmissiveSurfaces && surface.emission != vec3(0.0)) {

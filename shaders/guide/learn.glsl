@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the score of a sample does to the chains: the state transition, and the share of scattering; (90)-(93).
+#ifndef TYNDALL_GUIDE_LEARN_GLSL
+#define TYNDALL_GUIDE_LEARN_GLSL
+
+#include "guide/store.glsl"
+
+uint learnAccepted = 0u;
+uint learnForgotten = 0u;
+uint learnUnsound = 0u;
+
+// Luminance alone steers chains: a scalar that colours of light cannot cancel in.
+float scoreOf(vec3 value) { return dot(max(value, vec3(0.0)), vec3(0.299, 0.587, 0.114)); }
+
+void submit(GuidePtr guide, GuideUpdate update, uvec2 order) {
+  if (!kGuideLog) {
+    carryOut(guide, update);
+    return;
+  }
+  update.order[0] = order.x;
+  update.order[1] = order.y + storeLogged;
+  ++storeLogged;
+  const uint place = atomicAdd(guide.at[0].counters.at[0].logged, 1u);
+  if (place < guide.at[0].logSize) {
+    guide.at[0].log.at[place] = update;
+  }
+}
+
+GuideUpdate updateOf(uint kind, uint place, uint fingerprint, ChainState state) {
+  GuideUpdate update;
+  update.kind = kind;
+  update.place = place;
+  update.fingerprint = fingerprint;
+  update.order[0] = 0u;
+  update.order[1] = 0u;
+  update.state = state;
+  return update;
+}
+
+void storeChain(GuidePtr guide, ChainState state, vec3 point, vec3 facing, uvec2 order, inout Rng rng) {
+  CellKey key = adaptiveKey(guide, point, facing, kGuideNormals, rng);
+  submit(guide, updateOf(kUpdateChain, key.window, key.fingerprint, state), order);
+  if (kGuideStatic) {
+    key = staticKey(guide, point, rng);
+    submit(guide, updateOf(kUpdateChain, key.window, key.fingerprint, state), order);
+  }
+}
+
+// A guided sample that found almost nothing where its lobe says that there is light: within the part of the lobe that a
+// tenth of its samples fall into.
+void forget(GuidePtr guide, GuideRecord record, float score, uvec2 order) {
+  const vec3 mu = vec3(record.mu[0], record.mu[1], record.mu[2]);
+  const bool trusted = oneMinusCosBetween(mu, record.direction) * max(record.kappa, 1.0) <= 0.1;
+  if (!trusted || score > guide.at[0].forgetBelow * record.state.weight) {
+    return;
+  }
+  ChainState weights = kEmptyState;
+  weights.weight = record.state.weight;
+  weights.spread = mix(record.state.weight, score, guide.at[0].forgetRate);
+  if (!(weights.spread > kLeastChainWeight)) {
+    weights.spread = 0.0;
+  }
+  ++learnForgotten;
+  submit(guide, updateOf(kUpdateForget, record.source, 0u, weights), order);
+}
+
+// One vertex learns from `value`, what its direction has found times scattering over the density.
+void learn(GuidePtr guide, GuideRecord record, vec3 value, uvec2 order, inout Rng rng) {
+  const float score = scoreOf(value);
+  if (!isFinite(score)) {
+    ++learnUnsound;
+    return;
+  }
+  if (kGuideShare && record.cell != kNoCell && score > 0.0) {
+    ChainState gains = kEmptyState;
+    gains.weight = score * sqrt(record.scatterPart);
+    gains.spread = score * safeSqrt(1.0 - record.scatterPart);
+    submit(guide, updateOf(kUpdateShare, record.cell, 0u, gains), order);
+  }
+  if (score > kLeastChainWeight && rngFloat(rng) * record.meanWeight < score) {
+    ChainState state = record.state;
+    chainAdd(guide, state, record.point, record.target, record.velocity, score);
+    if (chainIsSound(state)) {
+      ++learnAccepted;
+      storeChain(guide, state, record.point, record.normal, order, rng);
+    }
+  } else if (kGuideForget && record.source != kNoState) {
+    forget(guide, record, score, order);
+  }
+}
+
+// Outgoing radiance of the place, for the scores of vertices that see it.
+vec3 cachedRadiance(GuidePtr guide, vec3 point, vec3 facing, inout Rng rng) {
+  const CellKey key = radianceKey(guide, point, facing, rng);
+  const uint cell = findRadiance(guide.at[0].radiance, key, guide.at[0].window);
+  if (cell == kNoCell) {
+    return vec3(0.0);
+  }
+  const vec3 radiance = guide.at[0].radiance.at[cell].radiance;
+  return isFinite(radiance) ? max(radiance, vec3(0.0)) : vec3(0.0);
+}
+
+void cacheRadiance(GuidePtr guide, GuideRecord record, vec3 value, uvec2 order, inout Rng rng) {
+  const CellKey key = radianceKey(guide, record.point, record.normal, rng);
+  ChainState sample_ = kEmptyState;
+  sample_.target = value;
+  submit(guide, updateOf(kUpdateRadiance, key.window, key.fingerprint, sample_), order);
+}
+
+#endif

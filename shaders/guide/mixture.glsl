@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// The mixture that directions are drawn from at a vertex: scattering's own directions, and lobes of chain states that
+// cells near the vertex hold. Whatever the states are, the density is that of the draw, given them: (89).
+#ifndef TYNDALL_GUIDE_MIXTURE_GLSL
+#define TYNDALL_GUIDE_MIXTURE_GLSL
+
+#include "guide/chain.glsl"
+#include "guide/hash_grid.glsl"
+
+const uint kLobes = kGuideLoads * kGuideStates;
+
+struct Mixture {
+  Lobe lobes[kMostLobes];
+  float weightSum;
+  float scatterShare;  // probability of scattering's own directions; 1 without lobes
+  Lobe chosen;         // in proportion to the weights
+  ChainState state;    // of the chosen lobe
+  uint source;         // its place in the store
+  uint cell;           // one of those that were found, or kNoCell
+};
+
+// Of the vertex at hand. Private memory: an array handed to functions would be copied at every call.
+Mixture mixture;
+
+// What was counted in this invocation.
+uint mixtureVertices = 0u;
+uint mixtureStates = 0u;
+uint mixtureGuided = 0u;
+
+void loadLobe(GuidePtr guide, uint place, bool found, uint i, vec3 point, vec3 normal, inout Rng rng) {
+  mixture.lobes[i] = kNoLobe;
+  if (!found) {
+    return;
+  }
+  ChainState state = guide.at[0].states.at[place];
+  if (!chainIsSound(state)) {
+    return;
+  }
+  if (kGuideMotion) {
+    moveTarget(guide, state);
+  }
+  const Lobe lobe = chainLobe(guide, state, point);
+  if (!(lobe.weight > 0.0) || (normal != vec3(0.0) && dot(normal, lobe.mu) <= 0.0)) {
+    return;
+  }
+  mixture.lobes[i] = lobe;
+  mixture.weightSum += lobe.weight;
+  ++mixtureStates;
+  if (rngFloat(rng) * mixture.weightSum < lobe.weight) {
+    mixture.chosen = lobe;
+    mixture.state = state;
+    mixture.source = place;
+  }
+}
+
+// Share of scattering's own directions: in proportion to the squared scores they account for, which the variance is made
+// of, within bounds: 1 / share is what a wrong lobe can cost at every event.
+float learntShare(GuidePtr guide, vec2 gains, uint samples) {
+  const float sum = gains.x + gains.y;
+  return samples < guide.at[0].shareSamples || !(sum > 0.0) ? guide.at[0].scatterShare
+                                                      : clamp(gains.x / sum, guide.at[0].leastShare, guide.at[0].mostShare);
+}
+
+// Loads the states of the vertex at `point` of the store's space. `horizon`: the normal that lobes must lie above, 0: any
+// direction counts. `facing`: what stands for a normal in keys.
+void loadMixture(GuidePtr guide, vec3 point, vec3 horizon, vec3 facing, inout Rng rng) {
+  mixture.weightSum = 0.0;
+  mixture.chosen = kNoLobe;
+  mixture.state = kEmptyState;
+  mixture.source = kNoState;
+  mixture.cell = kNoCell;
+  vec2 gains = vec2(0.0);
+  uint samples = 0u;
+  uint found = 0u;
+  [[unroll]] for (uint load = 0u; load < kGuideLoads; ++load) {
+    const bool coarse = kGuideStatic && rngFloat(rng) >= guide.at[0].adaptiveShare;
+    const CellKey key = coarse ? staticKey(guide, point, rng) : adaptiveKey(guide, point, facing, kGuideNormals, rng);
+    const uint cell = findCell(guide.at[0].cells, key, guide.at[0].window);
+    if (kGuideShare && cell != kNoCell) {
+      const vec2 own = vec2(guide.at[0].cells.at[cell].scatterGain, guide.at[0].cells.at[cell].guideGain);
+      const vec2 squared = own * own;
+      const float sum = squared.x + squared.y;
+      const uint count = guide.at[0].cells.at[cell].samples;
+      if (sum > 0.0 && isFinite(sum)) {
+        gains += float(min(count, 64u)) * squared / sum;
+        samples += count;
+      }
+      ++found;
+    }
+    if (kGuideShare && cell != kNoCell && (mixture.cell == kNoCell || rngFloat(rng) * float(found) < 1.0)) {
+      mixture.cell = cell;
+    }
+    [[unroll]] for (uint i = 0u; i < kGuideStates; ++i) {
+      loadLobe(guide, cell * kGuideStates + i, cell != kNoCell, load * kGuideStates + i, point, horizon, rng);
+    }
+  }
+  ++mixtureVertices;
+  const bool any = mixture.weightSum > 0.0 && isFinite(mixture.weightSum);
+  mixture.scatterShare = !any ? 1.0 : kGuideShare ? learntShare(guide, gains, samples) : guide.at[0].scatterShare;
+}
+
+// Density of the lobes together [1/sr].
+float lobesPdf(vec3 w) {
+  float sum = 0.0;
+  [[unroll]] for (uint i = 0u; i < kLobes; ++i) {
+    if (mixture.lobes[i].weight > 0.0) {
+      sum += mixture.lobes[i].weight * vmfPdf(mixture.lobes[i].mu, mixture.lobes[i].kappa, w);
+    }
+  }
+  return sum / mixture.weightSum;
+}
+
+// Density of the mixture; `scatter` is that of scattering's own directions.
+float mixturePdf(float scatter, vec3 w) {
+  return mixture.scatterShare >= 1.0 ? scatter : mix(lobesPdf(w), scatter, mixture.scatterShare);
+}
+
+#endif

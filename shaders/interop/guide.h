@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+// Markov chain path guiding on the device: one store of chain states for surfaces and media. Positions are in the
+// store's space, which stays while frames come with centres of their own.
+#ifndef TYNDALL_INTEROP_GUIDE_H
+#define TYNDALL_INTEROP_GUIDE_H
+
+#include "interop/basic.h"
+
+GPU_BEGIN
+
+GPU_CONST uint kMostLobes = 16;      // of a mixture: loads times states of a cell
+GPU_CONST uint kNoCell = 0xffffffffu;
+GPU_CONST uint kNoState = 0xffffffffu;
+GPU_CONST uint kMostChainCount = 1024;
+GPU_CONST float kLeastChainWeight = 1e-30f; // below it a state is empty
+
+// A Markov chain: a lobe that aims at a place where light comes from. All zero: empty.
+struct ChainState {
+  vec3 target;         // mean of the places that were hit, weighted by their scores
+  float weight;        // mean score of accepted samples; 0: empty
+  float spread;        // mean of 1 - cos about the mean direction, weighted likewise, [0, 2]
+  float time;          // of the last update [s]
+  uint velocityXY;     // of the target, two halves [units/s]
+  uint velocityZCount; // low half: z; high half: number of accepted samples
+};
+GPU_BUFFER(ChainState)
+
+// A vertex of a hash grid, with kGuideStates states at its index times that.
+struct GuideCell {
+  uint fingerprint;    // of the vertex, never 0; 0: free
+  uint stamp;          // round of the last write
+  float scatterGain;   // root of the sum of squared scores that scattering's own directions account for
+  float guideGain;     // ... and that the lobes do
+  uint samples;        // that the gains are made of
+};
+GPU_BUFFER(GuideCell)
+
+// Outgoing radiance at a vertex of the cache's grid: for scores alone, never in a picture.
+struct RadianceCell {
+  uint fingerprint;
+  uint stamp;
+  uint count;
+  vec3 radiance;       // mean; surfaces: all of it, media: before the albedo [W/(m2 sr)]
+};
+GPU_BUFFER(RadianceCell)
+
+// How cells' widths grow with the distance from the camera.
+struct GuideLevels {
+  float angle;         // width of a cell per distance
+  float finest;        // width on level 0 [units]
+  float ratioLog;      // logarithm of the widths' ratio from level to level
+  float spread;        // a vertex k levels coarser is taken with probability ~ 2^(-spread k); 0: never
+};
+
+// A vertex of a path in flight, until its score is known.
+struct GuideRecord {
+  vec3 point;
+  vec3 normal;         // on the path's side; media: against the way it came
+  vec3 direction;      // that was drawn
+  vec3 target;         // the first thing that it met
+  vec3 velocity;       // of the target [units/s]
+  vec3 throughput;     // on arrival at the vertex
+  vec3 arrived;        // radiance of the sample on arrival
+  vec3 left;           // ... and when the path's own ray left, the vertex' light sample being in
+  vec3 score;          // of the cache: what the direction found, over its density
+  float scatterPart;   // of the density: by scattering's own directions, [0, 1]
+  float meanWeight;    // of the loaded states, empty ones counted
+  float mu[3];         // of the chosen lobe
+  float kappa;
+  uint cell;           // whose share is learnt, or kNoCell
+  uint source;         // the state that drew the direction, or kNoState
+  ChainState state;    // its copy; empty if scattering drew the direction
+};
+GPU_BUFFER(GuideRecord)
+
+GPU_CONST uint kUpdateChain = 0;     // a state for a vertex
+GPU_CONST uint kUpdateForget = 1;    // a state's new weight, if it still has the old one
+GPU_CONST uint kUpdateShare = 2;     // gains of a cell
+GPU_CONST uint kUpdateRadiance = 3;  // a sample of the cache
+
+// A write to the store, as a value: carried out at once, or logged and carried out in order.
+struct GuideUpdate {
+  uint kind;           // kUpdate*
+  uint place;          // first cell of the window; Forget: the state; Share: the cell
+  uint fingerprint;
+  uint order[2];       // logged: pixel, and number within it
+  ChainState state;    // Forget: weight = old, spread = new; Share: weight, spread = gains; Radiance: target = sample
+};
+GPU_BUFFER(GuideUpdate)
+
+// What guiding did, added up over a dispatch.
+struct GuideCounters {
+  uint vertices;       // that loaded states
+  uint states;         // loaded that were not empty
+  uint guided;         // directions that lobes drew
+  uint accepted;       // samples that became states
+  uint forgotten;      // states that lost weight
+  uint evicted;        // cells that another vertex took over
+  uint logged;         // updates in the log
+  uint unsound;        // scores that were not finite
+};
+GPU_BUFFER(GuideCounters)
+
+// What the guided passes read and write. Lengths in scene units; docs/guiding.md says what each is for.
+struct Guide {
+  GPU_PTR(GuideCell) cells;
+  GPU_PTR(ChainState) states;
+  GPU_PTR(RadianceCell) radiance;
+  GPU_PTR(GuideRecord) records;   // mostRecords for each pixel of a dispatch
+  GPU_PTR(GuideUpdate) log;
+  GPU_PTR(GuideCounters) counters;
+  vec3 camera;         // where cells are finest
+  vec3 shift;          // from centred world space to the store's
+  GuideLevels levels;
+  GuideLevels radianceLevels;
+  float staticWidth;
+  float adaptiveShare; // of the loads, where there is a static grid
+  uint cellCount;      // adaptive cells come first, a multiple of `window`
+  uint staticCount;    // likewise
+  uint radianceCount;
+  uint window;         // cells that a vertex may be in
+  float priorArea;     // a lobe of one sample covers about its root on the light [units^2]
+  float priorLeast;    // ... but is never narrower than this 1 - cos
+  float mostKappa;     // of states with few samples ...
+  float kappaGrowth;   // ... times the number of samples to this power
+  float scatterShare;  // of directions that scattering draws, until it is learnt
+  float leastShare;    // bounds of what is learnt
+  float mostShare;
+  uint shareSamples;   // before it counts
+  float leastRate;     // of a chain's means
+  float forgetBelow;   // a miss is a score below this part of the state's weight
+  float forgetRate;    // of the weight that a miss takes away, (0, 1]
+  float radianceLimit; // a sample of the cache counts for at most this many times the mean
+  float time;          // of the frame [s]
+  float mostTime;      // a target is moved ahead for at most this long [s]
+  float farDistance;   // where targets at infinity stand
+  uint round;          // of learning, counted on
+  uint mostRecords;    // vertices of a path that learn
+  uint logSize;
+};
+GPU_BUFFER(Guide)
+
+GPU_END
+#endif

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "guide/store.h"
+
+#include "base/error.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tyndall::guide {
+namespace {
+
+/// Cells for each pixel: those around what the camera sees, and on coarser levels.
+constexpr double kCellsPerPixel = 2.0;
+constexpr double kFewestCells = 16384.0;
+constexpr double kMostCells = 4194304.0;
+/// Of the adaptive grid's number.
+constexpr double kStaticShare = 0.25;
+constexpr double kRadianceShare = 0.5;
+
+std::uint32_t wholeWindows(double cells, std::uint32_t window) {
+  return std::max(static_cast<std::uint32_t>(cells) / window, 1u) * window;
+}
+
+template <class T>
+std::vector<std::byte> contentOf(const gpu::Buffer<T>& buffer) {
+  std::vector<std::byte> bytes(buffer.size() * sizeof(T));
+  buffer.read(bytes);
+  return bytes;
+}
+
+template <class T>
+std::span<const T> as(const std::vector<std::byte>& bytes) {
+  return {reinterpret_cast<const T*>(bytes.data()), bytes.size() / sizeof(T)};
+}
+
+bool sound(const interop::ChainState& state) {
+  return std::isfinite(state.weight) && std::isfinite(state.spread) && std::isfinite(state.time) &&
+         std::isfinite(state.target.x) && std::isfinite(state.target.y) && std::isfinite(state.target.z);
+}
+
+} // namespace
+
+StoreSize storeSize(const scene::GuideSettings& settings, std::size_t pixels, double bytes) {
+  StoreSize size;
+  size.states = settings.states;
+  const double perCell = sizeof(interop::GuideCell) + settings.states * sizeof(interop::ChainState);
+  const double cache = settings.score == scene::GuideScore::Cache ? kRadianceShare : 0.0;
+  const double grids = settings.staticGrid ? 1.0 + kStaticShare : 1.0;
+  const double most = bytes / (grids * perCell + cache * sizeof(interop::RadianceCell));
+  const double wanted =
+      settings.slots > 0 ? settings.slots : std::clamp(kCellsPerPixel * double(pixels), kFewestCells, kMostCells);
+  const double cells = std::min(wanted, most);
+  size.cells = wholeWindows(cells, settings.window);
+  size.staticCells = settings.staticGrid ? wholeWindows(kStaticShare * cells, settings.window) : 0;
+  size.radiance = cache > 0.0 ? wholeWindows(cache * cells, settings.window) : 0;
+  return size;
+}
+
+double storeBytes(const StoreSize& size) {
+  const double cells = double(size.cells) + size.staticCells;
+  return cells * (sizeof(interop::GuideCell) + size.states * sizeof(interop::ChainState)) +
+         size.radiance * double(sizeof(interop::RadianceCell));
+}
+
+Store::Store(const gpu::Device& device, const StoreSize& size)
+    : size_(size), cells_(device, std::size_t(size.cells) + size.staticCells, gpu::Memory::Device),
+      states_(device, cells_.size() * size.states, gpu::Memory::Device),
+      radiance_(device, size.radiance, gpu::Memory::Device) {
+  clear();
+}
+
+void Store::clear() {
+  cells_.fillZero();
+  states_.fillZero();
+  radiance_.fillZero();
+  round_ = 0;
+}
+
+StoreContent Store::content() const {
+  return {size_, round_, contentOf(cells_), contentOf(states_), contentOf(radiance_)};
+}
+
+void Store::restore(const StoreContent& content) {
+  if (!(content.size == size_)) {
+    fail("the chain store was saved with another size ({} cells of {} states, {} wanted); render without --resume, or "
+         "with the settings that it was made with",
+         content.size.cells, content.size.states, size_.cells);
+  }
+  cells_.write(as<interop::GuideCell>(content.cells));
+  states_.write(as<interop::ChainState>(content.states));
+  radiance_.write(as<interop::RadianceCell>(content.radiance));
+  round_ = content.round;
+}
+
+Occupancy Store::occupancy() const {
+  const StoreContent now = content();
+  Occupancy result;
+  std::size_t index = 0;
+  for (const interop::GuideCell& cell : as<interop::GuideCell>(now.cells)) {
+    (index++ < size_.cells ? result.cells : result.staticCells) += cell.fingerprint != 0 ? 1 : 0;
+  }
+  for (const interop::ChainState& state : as<interop::ChainState>(now.states)) {
+    result.states += state.weight > 0.0f ? 1 : 0;
+    result.unsound += sound(state) ? 0 : 1;
+  }
+  for (const interop::RadianceCell& cell : as<interop::RadianceCell>(now.radiance)) {
+    result.radiance += cell.fingerprint != 0 ? 1 : 0;
+  }
+  return result;
+}
+
+void Store::describe(interop::Guide& guide) const {
+  guide.cells = cells_.ptr();
+  guide.states = states_.ptr();
+  guide.radiance = radiance_.ptr();
+  guide.cellCount = size_.cells;
+  guide.staticCount = size_.staticCells;
+  guide.radianceCount = size_.radiance;
+  guide.round = round_;
+}
+
+} // namespace tyndall::guide

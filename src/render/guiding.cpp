@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/guiding.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tyndall::render {
+namespace {
+
+constexpr double kUnitsOfDiagonal = 1000.0;
+/// Where targets at infinity stand.
+constexpr double kFarUnits = 10000.0;
+
+interop::GuideLevels levels(const scene::GuideLevels& settings, double unit) {
+  return {.angle = float(settings.angle),
+          .finest = float(settings.finest * unit),
+          .ratioLog = float(std::log(settings.ratio)),
+          .spread = float(settings.spread)};
+}
+
+} // namespace
+
+double guideUnit(const scene::GuideSettings& settings, const gpu_scene::GpuScene& scene) {
+  if (settings.unit > 0.0) {
+    return settings.unit;
+  }
+  const double diagonal = scene.bounds().empty() ? 0.0 : glm::length(scene.bounds().size());
+  const double fromCamera = glm::length(scene.cameraPosition() - scene.centre());
+  return (diagonal > 0.0 ? diagonal : fromCamera > 0.0 ? fromCamera : 1.0) / kUnitsOfDiagonal;
+}
+
+void setGuideSpec(const scene::GuideSettings& settings, passes::PathSpec& spec) {
+  spec.kGuide = true;
+  spec.kGuideLoads = settings.loads;
+  spec.kGuideStates = settings.states;
+  spec.kGuideStatic = settings.staticGrid;
+  spec.kGuideNormals = settings.normals;
+  spec.kGuideCache = settings.score == scene::GuideScore::Cache;
+  spec.kGuideShare = settings.learnShare;
+  spec.kGuideForget = settings.forget;
+  spec.kGuideLearn = settings.learn;
+}
+
+Guiding::Guiding(const gpu::Device& device, const gpu_scene::GpuScene& scene, const GuidePlan& plan,
+                 std::uint32_t pixels)
+    : plan_(plan), records_(device, std::size_t(pixels) * plan.settings.records, gpu::Memory::Device),
+      counters_(device, 1, gpu::Memory::Host), header_(device, 1, gpu::Memory::Host) {
+  header_.mapped()[0] = describe(scene);
+}
+
+interop::Guide Guiding::describe(const gpu_scene::GpuScene& scene) const {
+  const scene::GuideSettings& settings = plan_.settings;
+  const double unit = guideUnit(settings, scene);
+  interop::Guide guide{};
+  plan_.store->describe(guide);
+  guide.records = records_.ptr();
+  guide.counters = counters_.ptr();
+  guide.camera = glm::vec3(scene.cameraPosition() - plan_.origin);
+  guide.shift = glm::vec3(scene.centre() - plan_.origin);
+  guide.levels = levels(settings.cells, unit);
+  guide.radianceLevels = levels(settings.radiance, unit);
+  guide.staticWidth = float(settings.staticWidth * unit);
+  guide.adaptiveShare = float(settings.adaptiveShare);
+  guide.window = settings.window;
+  guide.priorArea = float(settings.priorRadius * settings.priorRadius * unit * unit);
+  guide.priorLeast = float(settings.priorLeast);
+  guide.mostKappa = float(settings.mostKappa);
+  guide.kappaGrowth = float(settings.kappaGrowth);
+  guide.scatterShare = float(settings.scatterShare);
+  guide.leastShare = float(settings.leastShare);
+  guide.mostShare = float(settings.mostShare);
+  guide.shareSamples = settings.shareSamples;
+  guide.leastRate = float(settings.leastRate);
+  guide.forgetBelow = float(settings.forgetBelow);
+  guide.forgetRate = float(settings.forgetRate);
+  guide.radianceLimit = float(settings.radianceLimit);
+  guide.time = float(plan_.time);
+  guide.mostTime = float(settings.mostTime);
+  guide.farDistance = float(kFarUnits * unit);
+  guide.mostRecords = settings.records;
+  return guide;
+}
+
+void Guiding::begin() {
+  counters_.fillZero();
+  header_.mapped()[0].round = plan_.store->round();
+}
+
+void Guiding::end() {
+  const interop::GuideCounters& counters = counters_.mapped()[0];
+  totals_.vertices += counters.vertices;
+  totals_.states += counters.states;
+  totals_.guided += counters.guided;
+  totals_.accepted += counters.accepted;
+  totals_.forgotten += counters.forgotten;
+  totals_.evicted += counters.evicted;
+  totals_.unsound += counters.unsound;
+}
+
+GuideReport Guiding::report() const {
+  return {totals_, plan_.store->size(), plan_.store->bytes(), plan_.store->occupancy()};
+}
+
+double guidingBytes(const scene::GuideSettings& settings, std::uint32_t pixels) {
+  return double(pixels) * settings.records * sizeof(interop::GuideRecord) + sizeof(interop::Guide) +
+         sizeof(interop::GuideCounters);
+}
+
+} // namespace tyndall::render

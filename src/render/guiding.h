@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "gpu_scene/gpu_scene.h"
+#include "guide/store.h"
+#include "passes/path/path_pass.h"
+
+#include <memory>
+
+namespace tyndall::render {
+
+/// What guides the paths of a render. The store outlives estimators: it goes from frame to frame.
+struct GuidePlan {
+  scene::GuideSettings settings;
+  std::shared_ptr<guide::Store> store;
+  glm::dvec3 origin{0.0}; ///< of the store's space, in the world
+  double time = 0.0;      ///< of the frame [s]
+};
+
+/// Counters over all dispatches so far.
+struct GuideTotals {
+  std::uint64_t vertices = 0; ///< that asked for a direction
+  std::uint64_t states = 0;   ///< loaded that were not empty
+  std::uint64_t guided = 0;   ///< directions that lobes drew
+  std::uint64_t accepted = 0; ///< samples that became states
+  std::uint64_t forgotten = 0;
+  std::uint64_t evicted = 0;
+  std::uint64_t unsound = 0;
+};
+
+/// What guiding came to.
+struct GuideReport {
+  GuideTotals totals;
+  guide::StoreSize size;
+  double bytes = 0.0; ///< of the store
+  guide::Occupancy occupancy;
+};
+
+/// One unit of the guide's lengths, in scene units.
+double guideUnit(const scene::GuideSettings& settings, const gpu_scene::GpuScene& scene);
+
+/// Specialization of the path pass for the settings.
+void setGuideSpec(const scene::GuideSettings& settings, passes::PathSpec& spec);
+
+/// Device side of a plan for one estimator: its constants, and the records of paths in flight.
+class Guiding {
+public:
+  /// @param pixels of a dispatch.
+  Guiding(const gpu::Device& device, const gpu_scene::GpuScene& scene, const GuidePlan& plan, std::uint32_t pixels);
+
+  interop::Ptr<interop::Guide> ptr() const { return header_.ptr(); }
+  /// Before a dispatch: counters at zero, the store's round written.
+  void begin();
+  /// After it: counters are added up.
+  void end();
+  const GuideTotals& totals() const { return totals_; }
+  guide::Store& store() { return *plan_.store; }
+  const guide::Store& store() const { return *plan_.store; }
+  GuideReport report() const;
+
+private:
+  interop::Guide describe(const gpu_scene::GpuScene& scene) const;
+
+  GuidePlan plan_;
+  gpu::Buffer<interop::GuideRecord> records_;
+  gpu::Buffer<interop::GuideCounters> counters_;
+  gpu::Buffer<interop::Guide> header_;
+  GuideTotals totals_;
+};
+
+/// Device bytes that guiding takes beside its store.
+double guidingBytes(const scene::GuideSettings& settings, std::uint32_t pixels);
+
+} // namespace tyndall::render

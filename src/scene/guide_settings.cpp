@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/guide_settings.h"
+
+namespace tyndall::scene {
+
+GuideSettings guideSettings(Integrator integrator) {
+  GuideSettings settings;
+  settings.preset = integrator;
+  if (integrator != Integrator::McpgPaper) {
+    return settings;
+  }
+  // The published settings; a unit of the game that they were made in is taken for a thousandth of the diagonal.
+  settings.score = GuideScore::Cache;
+  settings.loads = 5;
+  settings.states = 1;
+  settings.normals = true;
+  settings.learnShare = false;
+  settings.watch = false;
+  settings.forget = true;
+  settings.cells = {.angle = 0.004, .finest = 0.01, .ratio = 1.7320508, .spread = 1.0};
+  settings.radiance = {.angle = 0.01, .finest = 0.01, .ratio = 1.1224621, .spread = 0.0};
+  settings.staticWidth = 25.3;
+  settings.priorRadius = 0.5477226; // its square is 0.3
+  settings.mostKappa = 1e6;
+  settings.scatterShare = 0.15;
+  settings.forgetBelow = 0.05;
+  settings.forgetRate = 1.0;
+  settings.window = 1;
+  return settings;
+}
+
+const char* integratorName(Integrator integrator) {
+  switch (integrator) {
+  case Integrator::Path:
+    return "path";
+  case Integrator::McpgPaper:
+    return "mcpg-paper";
+  case Integrator::Mcpg:
+    return "mcpg";
+  }
+  return "";
+}
+
+} // namespace tyndall::scene
