@@ -14,7 +14,7 @@ struct Lobe {
 
 const Lobe kNoLobe = Lobe(vec3(0.0, 0.0, 1.0), 0.0, 0.0);
 
-const ChainState kEmptyState = ChainState(vec3(0.0), 0.0, 0.0, 0.0, 0u, 0u);
+const ChainState kEmptyState = ChainState(vec3(0.0), 0.0, 0.0, 0.0, 0.0, 0u, 0u);
 
 uint chainCount(ChainState state) { return state.velocityZCount >> 16; }
 
@@ -32,13 +32,13 @@ void setChainMotion(inout ChainState state, vec3 velocity, uint count) {
 // Whether a state may be used. Torn writes and numbers out of range are as good as none.
 bool chainIsSound(ChainState state) {
   return state.weight > kLeastChainWeight && isFinite(state.weight) && isFinite(state.target) && state.spread >= 0.0 &&
-         state.spread <= 2.0;
+         state.spread <= 2.0 && state.evidence >= 0.0;
 }
 
 // The regularised mean of 1 - cos at a distance: few samples say little of a lobe's width, and sqrt(priorArea) is how
 // much of the light one of them is taken for, from whatever distance.
 float chainSpread(GuidePtr guide, ChainState state, float squaredDistance) {
-  const float count = float(chainCount(state));
+  const float count = state.evidence;
   const float prior = max(guide.at[0].priorLeast, guide.at[0].priorArea / squaredDistance);
   return (count * count * state.spread + prior) / (count * count + prior);
 }
@@ -50,7 +50,7 @@ Lobe chainLobe(GuidePtr guide, ChainState state, vec3 point) {
   if (!(squared > 0.0) || !isFinite(squared)) {
     return kNoLobe;
   }
-  const float most = guide.at[0].mostKappa * pow(float(max(chainCount(state), 1u)), guide.at[0].kappaGrowth);
+  const float most = guide.at[0].mostKappa * pow(max(state.evidence, 1.0), guide.at[0].kappaGrowth);
   const float kappa = min(vmfKappa(chainSpread(guide, state, squared)), min(most, 1e6));
   return Lobe(offset * inversesqrt(squared), kappa, state.weight);
 }
@@ -60,12 +60,13 @@ void moveTarget(GuidePtr guide, inout ChainState state) {
   state.target += clamp(guide.at[0].time - state.time, 0.0, guide.at[0].mostTime) * chainVelocity(state);
 }
 
-// Takes a sample in: `point` is where the direction was drawn, `target` what it met, `score` > 0.
-void chainAdd(GuidePtr guide, inout ChainState state, vec3 point, vec3 target, vec3 velocity, float score) {
+// Takes a sample in: `point` is where the direction was drawn, `target` what it met, `score` >= 0.
+void chainAdd(GuidePtr guide, inout ChainState state, vec3 point, vec3 target, vec3 velocity, float score, bool accepted) {
   const uint count = min(chainCount(state) + 1u, kMostChainCount);
   const float rate = max(1.0 / float(count), guide.at[0].leastRate);
   state.weight = mix(state.weight, score, rate);
   const float share = state.weight > 0.0 ? min(rate * score / state.weight, 1.0) : 1.0;
+  state.evidence = min(state.evidence + (accepted ? 1.0 : 0.0), float(kMostChainCount));
   state.target = mix(state.target, target, share);
   const vec3 mean = state.target - point;
   const vec3 own = target - point;

@@ -54,14 +54,10 @@ void forget(GuidePtr guide, GuideRecord record, float score, uvec2 order) {
   if (!trusted || score > guide.at[0].forgetBelow * record.state.weight) {
     return;
   }
-  ChainState weights = kEmptyState;
-  weights.weight = record.state.weight;
-  weights.spread = mix(record.state.weight, score, guide.at[0].forgetRate);
-  if (!(weights.spread > kLeastChainWeight)) {
-    weights.spread = 0.0;
-  }
+  ChainState state = record.state;
+  state.weight = mix(state.weight, score, guide.at[0].forgetRate);
   ++learnForgotten;
-  submit(guide, updateOf(kUpdateForget, record.source, 0u, weights), order);
+  submit(guide, updateOf(kUpdateState, record.source, floatBitsToUint(record.state.weight), state), order);
 }
 
 // One vertex learns from `value`, what its direction has found times scattering over the density.
@@ -77,14 +73,19 @@ void learn(GuidePtr guide, GuideRecord record, vec3 value, uvec2 order, inout Rn
     gains.spread = score * safeSqrt(1.0 - record.scatterPart);
     submit(guide, updateOf(kUpdateShare, record.cell, 0u, gains), order);
   }
-  if (score > kLeastChainWeight && rngFloat(rng) * record.meanWeight < score) {
-    ChainState state = record.state;
-    chainAdd(guide, state, record.point, record.target, record.velocity, score);
-    if (chainIsSound(state)) {
-      ++learnAccepted;
-      storeChain(guide, state, record.point, record.normal, order, rng);
-    }
-  } else if (kGuideForget && record.source != kNoState) {
+  const bool accepted = score > kLeastChainWeight && rngFloat(rng) * record.meanWeight < score;
+  const bool guided = record.source != kNoState;
+  ChainState state = record.state;
+  if (accepted || kGuideWeight == kWeightMean && guided) {
+    chainAdd(guide, state, record.point, record.target, record.velocity, score, accepted);
+  }
+  if (kGuideWeight == kWeightMean && guided) {
+    submit(guide, updateOf(kUpdateState, record.source, floatBitsToUint(record.state.weight), state), order);
+  }
+  if (accepted && chainIsSound(state)) {
+    ++learnAccepted;
+    storeChain(guide, state, record.point, record.normal, order, rng);
+  } else if (kGuideWeight == kWeightForgets && guided && !accepted) {
     forget(guide, record, score, order);
   }
 }

@@ -101,6 +101,9 @@ void loadMixture(GuidePtr guide, vec3 point, vec3 horizon, vec3 facing, inout Rn
 
 // Density of the lobes together [1/sr].
 float lobesPdf(vec3 w) {
+  if (kPlantedBug == kBugChosenLobe) {
+    return mixture.chosen.weight / mixture.weightSum * vmfPdf(mixture.chosen.mu, mixture.chosen.kappa, w);
+  }
   float sum = 0.0;
   [[unroll]] for (uint i = 0u; i < kLobes; ++i) {
     if (mixture.lobes[i].weight > 0.0) {
@@ -112,6 +115,9 @@ float lobesPdf(vec3 w) {
 
 // Density of the mixture; `scatter` is that of scattering's own directions.
 float mixturePdf(float scatter, vec3 w) {
+  if (kPlantedBug == kBugScatterShare && mixture.scatterShare < 1.0) {
+    return scatter + (1.0 - mixture.scatterShare) * lobesPdf(w);
+  }
   return mixture.scatterShare >= 1.0 ? scatter : mix(lobesPdf(w), scatter, mixture.scatterShare);
 }
 

@@ -55,9 +55,9 @@ void writeChain(GuidePtr guide, GuideUpdate update) {
   guide.at[0].states.at[leastState(guide, cell)] = update.state;
 }
 
-void writeForget(GuidePtr guide, GuideUpdate update) {
-  if (guide.at[0].states.at[update.place].weight == update.state.weight) {
-    guide.at[0].states.at[update.place].weight = update.state.spread;
+void writeState(GuidePtr guide, GuideUpdate update) {
+  if (floatBitsToUint(guide.at[0].states.at[update.place].weight) == update.fingerprint) {
+    guide.at[0].states.at[update.place] = update.state;
   }
 }
 
@@ -111,8 +111,8 @@ void writeRadiance(GuidePtr guide, GuideUpdate update) {
 void carryOut(GuidePtr guide, GuideUpdate update) {
   if (update.kind == kUpdateChain) {
     writeChain(guide, update);
-  } else if (update.kind == kUpdateForget) {
-    writeForget(guide, update);
+  } else if (update.kind == kUpdateState) {
+    writeState(guide, update);
   } else if (update.kind == kUpdateShare) {
     writeShare(guide, update);
   } else if (kGuideCache) {

@@ -22,8 +22,8 @@ vec3 vmfSample(vec3 mu, float kappa, vec2 xi) {
   return normalize(directionAbout(mu, oneMinusCos, xi.x));
 }
 
-// The concentration whose mean of 1 - cos is `oneMinusCos` > 0, within 1.5 % [Banerjee05, (4.4)], written so that
-// nothing cancels at narrow lobes. Means beyond 1 give 0, the uniform distribution.
+// The concentration whose mean of 1 - cos is `oneMinusCos` > 0 [Banerjee05, (4.4)]: within 4.9 %, its own mean cosine
+// within 1.8 %. Written so that nothing cancels at narrow lobes. Means beyond 1 give 0, the uniform distribution.
 float vmfKappa(float oneMinusCos) {
   const float e = min(oneMinusCos, 1.0);
   return (2.0 - e * e * (3.0 - e)) / (e * (2.0 - e));

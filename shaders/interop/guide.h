@@ -12,16 +12,22 @@ GPU_CONST uint kMostLobes = 16;      // of a mixture: loads times states of a ce
 GPU_CONST uint kNoCell = 0xffffffffu;
 GPU_CONST uint kNoState = 0xffffffffu;
 GPU_CONST uint kMostChainCount = 1024;
+
+// What a state's weight is, and what takes it away again.
+GPU_CONST uint kWeightAccepted = 0;  // mean score of accepted samples; misses do nothing
+GPU_CONST uint kWeightForgets = 1;   // ... where a trusted sample misses, it is lost [Alber25]
+GPU_CONST uint kWeightMean = 2;      // mean score of all samples that the lobe drew
 GPU_CONST float kLeastChainWeight = 1e-30f; // below it a state is empty
 
 // A Markov chain: a lobe that aims at a place where light comes from. All zero: empty.
 struct ChainState {
   vec3 target;         // mean of the places that were hit, weighted by their scores
-  float weight;        // mean score of accepted samples; 0: empty
+  float weight;        // mean score: of accepted samples, or of all that its lobe drew; 0: empty
   float spread;        // mean of 1 - cos about the mean direction, weighted likewise, [0, 2]
+  float evidence;      // number of accepted samples: what target and spread rest on
   float time;          // of the last update [s]
   uint velocityXY;     // of the target, two halves [units/s]
-  uint velocityZCount; // low half: z; high half: number of accepted samples
+  uint velocityZCount; // low half: z; high half: number of samples
 };
 GPU_BUFFER(ChainState)
 
@@ -74,17 +80,17 @@ struct GuideRecord {
 GPU_BUFFER(GuideRecord)
 
 GPU_CONST uint kUpdateChain = 0;     // a state for a vertex
-GPU_CONST uint kUpdateForget = 1;    // a state's new weight, if it still has the old one
+GPU_CONST uint kUpdateState = 1;     // what a state becomes, if it still has the old weight
 GPU_CONST uint kUpdateShare = 2;     // gains of a cell
 GPU_CONST uint kUpdateRadiance = 3;  // a sample of the cache
 
 // A write to the store, as a value: carried out at once, or logged and carried out in order.
 struct GuideUpdate {
   uint kind;           // kUpdate*
-  uint place;          // first cell of the window; Forget: the state; Share: the cell
-  uint fingerprint;
+  uint place;          // first cell of the window; State: the state; Share: the cell
+  uint fingerprint;    // State: bits of the old weight
   uint order[2];       // logged: pixel, and number within it
-  ChainState state;    // Forget: weight = old, spread = new; Share: weight, spread = gains; Radiance: target = sample
+  ChainState state;    // Share: weight, spread = gains; Radiance: target = sample
 };
 GPU_BUFFER(GuideUpdate)
 

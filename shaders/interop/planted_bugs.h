@@ -27,6 +27,9 @@ GPU_CONST uint kBugRoulette = 32;       // survivors of roulette without their w
 GPU_CONST uint kBugNoPriority = 33;     // refracting boundaries inside objects of higher priority bend light
 GPU_CONST uint kBugLineRestart = 34;    // a null boundary starts a new line
 GPU_CONST uint kBugAimShare = 35;       // collisions under a small light count as if nothing else reached them
+GPU_CONST uint kBugChosenLobe = 40;     // guiding: of the lobes' density the chosen one's part alone
+GPU_CONST uint kBugScatterShare = 41;   // guiding: scattering's density in full, not by its share of the mixture
+GPU_CONST uint kBugLightByScatter = 42; // guiding: light samples weighted as if scattering drew all directions
 
 GPU_END
 #endif

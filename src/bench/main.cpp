@@ -2,6 +2,8 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "bench/commands.h"
+#include "bench/guiding.h"
+#include "bench/text_file.h"
 #include "volume/load.h"
 
 #include <CLI/CLI.hpp>
@@ -9,7 +11,6 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 
 namespace tyndall::bench {
 namespace {
@@ -50,16 +51,6 @@ void addOptions(CLI::App& app, const Command& command, Options& options) {
   app.add_option("--json", options.json, "Writes the figures to this file as well");
 }
 
-void writeJson(const std::string& path, const nlohmann::ordered_json& report) {
-  writeFileAtomically(path, [&](const std::filesystem::path& temporary) {
-    std::ofstream file(temporary);
-    file << report.dump(2) << '\n';
-    if (!file.flush()) {
-      fail("{}: cannot be written; is the disk full?", path);
-    }
-  });
-}
-
 volume::BrickGrid loadedGrid(const Options& options) {
   volume::BrickGrid grid = volume::loadGrid(options.volume, {});
   if (grid.empty()) {
@@ -89,7 +80,7 @@ int run(const Command& command, const Options& options) {
       {"repeats", options.repeats},   {"clock", device.info().type == "cpu" ? "process" : "wall"}};
   report["figures"] = command.report({options, device, grid});
   if (!options.json.empty()) {
-    writeJson(options.json, report);
+    writeTextFile(options.json, report.dump(2) + "\n");
   }
   return 0;
 }
@@ -100,13 +91,20 @@ int run(const Command& command, const Options& options) {
 int main(int argc, char** argv) {
   using namespace tyndall::bench;
   Options options;
-  CLI::App app("Measures Tyndall on one volume");
+  CLI::App app("Measures Tyndall");
   app.require_subcommand(1);
   for (const Command& command : kCommands) {
     addOptions(*app.add_subcommand(command.name, command.help), command, options);
   }
+  CLI::App& guiding = *app.add_subcommand(
+      "guiding", "Variance times time of guided paths beside unguided ones, and whether their means agree");
+  const std::shared_ptr<GuidingOptions> guidingOptions = addGuidingOptions(guiding);
   CLI11_PARSE(app, argc, argv);
   try {
+    if (app.got_subcommand(&guiding)) {
+      runGuiding(*guidingOptions);
+      return 0;
+    }
     for (const Command& command : kCommands) {
       if (app.got_subcommand(command.name)) {
         return run(command, options);

@@ -77,8 +77,10 @@ void PathRun::run(std::uint32_t samples, std::uint32_t seed, bool warmUp) {
 
 std::span<const interop::PixelSums> PathRun::take(std::size_t count, std::uint32_t samples, std::uint32_t seed) {
   last_ = {};
-  return runner_.run(pass_, scene_->ptr(), {pixels_.data(), count}, {0, samples}, seed,
-                     kCastSteps + scene_->loopCount(), [this](const interop::PathCounters& counters) {
+  interop::PathInputs inputs{};
+  inputs.scene = scene_->ptr();
+  return runner_.run(pass_, inputs, {pixels_.data(), count}, {0, samples}, seed, kCastSteps + scene_->loopCount(),
+                     [this](const interop::PathCounters& counters) {
                        last_.segments += counters.segments;
                        last_.lookups += counters.lookups;
                        last_.events += counters.events;

@@ -37,7 +37,7 @@ void setGuideSpec(const scene::GuideSettings& settings, passes::PathSpec& spec) 
   spec.kGuideNormals = settings.normals;
   spec.kGuideCache = settings.score == scene::GuideScore::Cache;
   spec.kGuideShare = settings.learnShare;
-  spec.kGuideForget = settings.forget;
+  spec.kGuideWeight = static_cast<std::uint32_t>(settings.weight);
   spec.kGuideLearn = settings.learn;
 }
 

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <limits>
 #include <map>
 
@@ -29,6 +30,18 @@ double secondsSince(Clock::time_point start) { return std::chrono::duration<doub
 
 film::Window wholeOr(const film::Window& crop, const glm::uvec2& size) {
   return crop.pixelCount() > 0 ? crop : film::Window{glm::uvec2(0), size};
+}
+
+/// A batch that is taken in rounds over the picture.
+struct Rounds {
+  std::uint32_t batchSamples = 0;
+  std::uint32_t done = 0;      ///< samples of the rounds before
+  std::vector<BatchSums> sums; ///< of the rounds so far, one per pixel; empty: there is one round
+};
+
+void addTo(BatchSums& sum, const BatchSums& term) {
+  std::transform(sum.moments.begin(), sum.moments.end(), term.moments.begin(), sum.moments.begin(), std::plus<>());
+  std::transform(sum.extras.begin(), sum.extras.end(), term.extras.begin(), sum.extras.begin(), std::plus<>());
 }
 
 class Session {
@@ -159,11 +172,26 @@ private:
       }
     }
     for (const auto& [have, pixels] : pixelsByProgress) {
-      runPixels(pixels, batch, {batch * kBatchSamples + have, count - have});
+      runRounds(pixels, batch, {batch * kBatchSamples + have, count - have});
     }
   }
 
-  void runPixels(const std::vector<std::uint32_t>& pixels, std::uint32_t batch, SampleRange samples) {
+  /// What learns takes the first batch in rounds over the whole picture, each as long as all before it: later samples of
+  /// it know what earlier ones have found. The film takes the batch as a whole.
+  void runRounds(const std::vector<std::uint32_t>& pixels, std::uint32_t batch, SampleRange samples) {
+    Rounds rounds{.batchSamples = samples.count, .sums = {}};
+    if (batch == 0 && estimator_->guiding() != nullptr) {
+      rounds.sums.resize(pixels.size());
+    }
+    while (rounds.done < samples.count && report_.stoppedBy.empty()) {
+      const std::uint32_t left = samples.count - rounds.done;
+      const std::uint32_t count = rounds.sums.empty() ? left : std::min(std::max(rounds.done, 1u), left);
+      runPixels(pixels, batch, {samples.first + rounds.done, count}, rounds);
+      rounds.done += count;
+    }
+  }
+
+  void runPixels(const std::vector<std::uint32_t>& pixels, std::uint32_t batch, SampleRange samples, Rounds& rounds) {
     for (std::size_t first = 0; first < pixels.size() && report_.stoppedBy.empty();
          first += estimator_->chunkPixels()) {
       const std::size_t count = std::min<std::size_t>(estimator_->chunkPixels(), pixels.size() - first);
@@ -172,16 +200,28 @@ private:
       if (report_.firstDispatchSeconds == 0.0) {
         report_.firstDispatchSeconds = secondsSince(start_);
       }
+      const bool last = rounds.done + samples.count == rounds.batchSamples;
       for (std::size_t i = 0; i < count; ++i) {
-        const BatchSums batchSums = toBatchSums(sums[i]);
-        if (pictureTakesBatch_) {
-          film_.add(filmIndex(chunk[i]), batch, samples.count, batchSums);
+        BatchSums batchSums = toBatchSums(sums[i]);
+        if (!rounds.sums.empty()) {
+          addTo(rounds.sums[first + i], batchSums);
+          batchSums = rounds.sums[first + i];
         }
-        if (decisions_) {
-          decisions_->add(filmIndex(chunk[i]), batch, samples.count, batchSums);
+        if (last) {
+          takeBatch(chunk[i], batch, rounds.batchSamples, batchSums);
         }
       }
-      afterChunk(batch, double(first + count) / double(pixels.size()));
+      const double share = double(first + count) / double(pixels.size());
+      afterChunk(batch, (rounds.done + share * samples.count) / rounds.batchSamples);
+    }
+  }
+
+  void takeBatch(std::uint32_t pixel, std::uint32_t batch, std::uint32_t count, const BatchSums& sums) {
+    if (pictureTakesBatch_) {
+      film_.add(filmIndex(pixel), batch, count, sums);
+    }
+    if (decisions_) {
+      decisions_->add(filmIndex(pixel), batch, count, sums);
     }
   }
 

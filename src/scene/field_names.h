@@ -34,6 +34,9 @@ inline constexpr NameTable<Object::Kind, 4> kObjectTypes{{{"mesh", Object::Kind:
                                                           {"sphere", Object::Kind::Sphere}}};
 inline constexpr NameTable<Integrator, 3> kIntegrators{
     {{"path", Integrator::Path}, {"mcpg-paper", Integrator::McpgPaper}, {"mcpg", Integrator::Mcpg}}};
+inline constexpr NameTable<GuideWeight, 3> kGuideWeights{{{"accepted", GuideWeight::Accepted},
+                                                           {"forgets", GuideWeight::Forgets},
+                                                           {"mean", GuideWeight::Mean}}};
 inline constexpr NameTable<GuideScore, 2> kGuideScores{{{"path", GuideScore::Path}, {"cache", GuideScore::Cache}}};
 inline constexpr NameTable<Interpolation, 2> kInterpolations{
     {{"linear", Interpolation::Linear}, {"step", Interpolation::Step}}};

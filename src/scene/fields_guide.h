@@ -27,7 +27,7 @@ void fields(V& v, GuideSettings& guide) {
   v.flag("static_grid", guide.staticGrid, "a coarse grid beside the one that follows the camera");
   v.flag("normals", guide.normals, "cells of the grid that follows the camera differ by normal");
   v.flag("learn_share", guide.learnShare, "of scattering's own directions");
-  v.flag("forget", guide.forget, "states whose light is gone lose weight");
+  v.choice("weight", guide.weight, Names<GuideWeight>(kGuideWeights), "what a state's weight is the mean of");
   v.flag("learn", guide.learn, "false: the store is read alone");
   v.flag("watch", guide.watch, "measure what guiding gains, and leave it away where it does not pay");
   v.object("cells", guide.cells, "how the cells of chains grow with the distance from the camera");

@@ -16,7 +16,7 @@ GuideSettings guideSettings(Integrator integrator) {
   settings.normals = true;
   settings.learnShare = false;
   settings.watch = false;
-  settings.forget = true;
+  settings.weight = GuideWeight::Forgets;
   settings.cells = {.angle = 0.004, .finest = 0.01, .ratio = 1.7320508, .spread = 1.0};
   settings.radiance = {.angle = 0.01, .finest = 0.01, .ratio = 1.1224621, .spread = 0.0};
   settings.staticWidth = 25.3;

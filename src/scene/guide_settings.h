@@ -18,6 +18,13 @@ enum class GuideScore {
   Cache ///< light that it has hit, else a cache of outgoing radiance
 };
 
+/// What the weight of a chain's state is.
+enum class GuideWeight {
+  Accepted, ///< mean score of accepted samples
+  Forgets,  ///< ... lost where a sample in the middle of the lobe misses, as published
+  Mean      ///< mean score of all samples that its lobe drew
+};
+
 /// How the cells of a hash grid grow with the distance from the camera.
 struct GuideLevels {
   double angle = 0.02; ///< width of a cell per distance
@@ -37,7 +44,7 @@ struct GuideSettings {
   bool staticGrid = true;   ///< a coarse grid beside the adaptive one
   bool normals = false;     ///< adaptive cells differ by normal
   bool learnShare = true;   ///< of scattering's own directions
-  bool forget = false;      ///< states whose light is gone lose weight
+  GuideWeight weight = GuideWeight::Mean;
   bool learn = true;        ///< false: the store is read alone
   bool watch = true;        ///< measure what guiding gains, and leave it away where it does not pay
   GuideLevels cells;

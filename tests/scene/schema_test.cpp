@@ -143,7 +143,10 @@ TEST(SceneSchema, RefusesWhatTheReaderRefuses) {
                                      {"objects.3.radius", "0"},         {"media", "{}"},
                                      {"animation.tracks.0.keys", "[]"}, {"animation.tracks.0.keys.1", "[1, 2, 3]"},
                                      {"animation.frames_per_second", "0"},
-                                     {"render.samples", "1.5"}};
+                                     {"render.samples", "1.5"},         {"render.integrator", "\"mcmc\""},
+                                     {"guide.score", "\"light\""},      {"guide.loads", "17"},
+                                     {"guide.cells.ratio", "1"},        {"guide.scatter_share", "0"},
+                                     {"guide.radiance", "[]"}};
   for (const Override& change : broken) {
     std::string pointer = "/" + change.path;
     std::replace(pointer.begin(), pointer.end(), '.', '/');
@@ -169,6 +172,9 @@ TEST(SceneFormatPage, NamesEveryKeyAndEveryWord) {
     }
   };
   words(kCameraTypes);
+  words(kIntegrators);
+  words(kGuideScores);
+  words(kGuideWeights);
   words(kInterpolations);
   words(kViews);
   words(kShapeTypes);

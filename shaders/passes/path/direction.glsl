@@ -16,7 +16,7 @@ void prepareDirection(GuidePtr guide, ScatterPoint vertex, inout Rng rng) {
 // Value of scattering (x, y, z) and density of directionSample (w) [1/sr]; 0 for deltas.
 vec4 directionEvalPdf(ScatterPoint vertex, vec3 w) {
   vec4 scattered = scatterEvalPdf(vertex, w);
-  if (kGuide && !scatterIsDelta(vertex)) {
+  if (kGuide && !scatterIsDelta(vertex) && kPlantedBug != kBugLightByScatter) {
     scattered.w = mixturePdf(scattered.w, w);
   }
   return scattered;

@@ -49,7 +49,7 @@
   SPEC(bool, kGuideNormals,    33, false)       /* adaptive cells differ by normal */         \
   SPEC(bool, kGuideCache,      34, false)       /* scores from the radiance cache */          \
   SPEC(bool, kGuideShare,      35, true)        /* the share of scattering is learnt */       \
-  SPEC(bool, kGuideForget,     36, false)       /* states whose light is gone lose weight */  \
+  SPEC(uint, kGuideWeight,     36, 0u)          /* kWeight* of interop/guide.h */             \
   SPEC(bool, kGuideMotion,     37, false)       /* targets move */                            \
   SPEC(bool, kGuideLearn,      38, true)        /* the store is written */                    \
   SPEC(bool, kGuideLog,        39, false)       /* ... in a second step, in order */          \
