@@ -10,9 +10,10 @@ struct Lobe {
   vec3 mu;
   float kappa;
   float weight; // 0: there is none
+  float peak;   // weight times the density at mu [1/sr]
 };
 
-const Lobe kNoLobe = Lobe(vec3(0.0, 0.0, 1.0), 0.0, 0.0);
+const Lobe kNoLobe = Lobe(vec3(0.0, 0.0, 1.0), 0.0, 0.0, 0.0);
 
 const ChainState kEmptyState = ChainState(vec3(0.0), 0.0, 0.0, 0.0, 0.0, 0u, 0u);
 
@@ -29,10 +30,13 @@ void setChainMotion(inout ChainState state, vec3 velocity, uint count) {
   state.velocityZCount = packHalf2x16(vec2(sound.z, 0.0)) & 0xffffu | count << 16;
 }
 
+// Times the peak of the narrowest lobe, and kMostLobes of them together, it is still finite.
+const float kMostChainWeight = 1e30;
+
 // Whether a state may be used. Torn writes and numbers out of range are as good as none.
 bool chainIsSound(ChainState state) {
-  return state.weight > kLeastChainWeight && isFinite(state.weight) && isFinite(state.target) && state.spread >= 0.0 &&
-         state.spread <= 2.0 && state.evidence >= 0.0;
+  return state.weight > kLeastChainWeight && state.weight <= kMostChainWeight && isFinite(state.weight) &&
+         isFinite(state.target) && state.spread >= 0.0 && state.spread <= 2.0 && state.evidence >= 0.0;
 }
 
 // The regularised mean of 1 - cos at a distance: few samples say little of a lobe's width, and sqrt(priorArea) is how
@@ -50,9 +54,12 @@ Lobe chainLobe(GuidePtr guide, ChainState state, vec3 point) {
   if (!(squared > 0.0) || !isFinite(squared)) {
     return kNoLobe;
   }
-  const float most = guide.at[0].mostKappa * pow(max(state.evidence, 1.0), guide.at[0].kappaGrowth);
+  float most = guide.at[0].mostKappa;
+  if (guide.at[0].kappaGrowth > 0.0) {
+    most *= pow(max(state.evidence, 1.0), guide.at[0].kappaGrowth);
+  }
   const float kappa = min(vmfKappa(chainSpread(guide, state, squared)), min(most, 1e6));
-  return Lobe(offset * inversesqrt(squared), kappa, state.weight);
+  return Lobe(offset * inversesqrt(squared), kappa, state.weight, state.weight * vmfPeak(kappa));
 }
 
 // The target's place at the frame's time.

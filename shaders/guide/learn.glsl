@@ -12,43 +12,27 @@ uint learnUnsound = 0u;
 // Luminance alone steers chains: a scalar that colours of light cannot cancel in.
 float scoreOf(vec3 value) { return dot(max(value, vec3(0.0)), vec3(0.299, 0.587, 0.114)); }
 
-void submit(GuidePtr guide, GuideUpdate update, uvec2 order) {
-  if (!kGuideLog) {
-    carryOut(guide, update);
-    return;
-  }
-  update.order[0] = order.x;
-  update.order[1] = order.y + storeLogged;
-  ++storeLogged;
-  const uint place = atomicAdd(guide.at[0].counters.at[0].logged, 1u);
-  if (place < guide.at[0].logSize) {
-    guide.at[0].log.at[place] = update;
-  }
-}
-
 GuideUpdate updateOf(uint kind, uint place, uint fingerprint, ChainState state) {
   GuideUpdate update;
   update.kind = kind;
   update.place = place;
   update.fingerprint = fingerprint;
-  update.order[0] = 0u;
-  update.order[1] = 0u;
   update.state = state;
   return update;
 }
 
-void storeChain(GuidePtr guide, ChainState state, vec3 point, vec3 facing, uvec2 order, inout Rng rng) {
+void storeChain(GuidePtr guide, ChainState state, vec3 point, vec3 facing, inout Rng rng) {
   CellKey key = adaptiveKey(guide, point, facing, kGuideNormals, rng);
-  submit(guide, updateOf(kUpdateChain, key.window, key.fingerprint, state), order);
+  carryOut(guide, updateOf(kUpdateChain, key.window, key.fingerprint, state));
   if (kGuideStatic) {
     key = staticKey(guide, point, rng);
-    submit(guide, updateOf(kUpdateChain, key.window, key.fingerprint, state), order);
+    carryOut(guide, updateOf(kUpdateChain, key.window, key.fingerprint, state));
   }
 }
 
 // A guided sample that found almost nothing where its lobe says that there is light: within the part of the lobe that a
 // tenth of its samples fall into.
-void forget(GuidePtr guide, GuideRecord record, float score, uvec2 order) {
+void forget(GuidePtr guide, GuideRecord record, float score) {
   const vec3 mu = vec3(record.mu[0], record.mu[1], record.mu[2]);
   const bool trusted = oneMinusCosBetween(mu, record.direction) * max(record.kappa, 1.0) <= 0.1;
   if (!trusted || score > guide.at[0].forgetBelow * record.state.weight) {
@@ -57,11 +41,11 @@ void forget(GuidePtr guide, GuideRecord record, float score, uvec2 order) {
   ChainState state = record.state;
   state.weight = mix(state.weight, score, guide.at[0].forgetRate);
   ++learnForgotten;
-  submit(guide, updateOf(kUpdateState, record.source, floatBitsToUint(record.state.weight), state), order);
+  carryOut(guide, updateOf(kUpdateState, record.source, floatBitsToUint(record.state.weight), state));
 }
 
 // One vertex learns from `value`, what its direction has found times scattering over the density.
-void learn(GuidePtr guide, GuideRecord record, vec3 value, uvec2 order, inout Rng rng) {
+void learn(GuidePtr guide, GuideRecord record, vec3 value, inout Rng rng) {
   const float score = scoreOf(value);
   if (!isFinite(score)) {
     ++learnUnsound;
@@ -71,7 +55,7 @@ void learn(GuidePtr guide, GuideRecord record, vec3 value, uvec2 order, inout Rn
     ChainState gains = kEmptyState;
     gains.weight = score * sqrt(record.scatterPart);
     gains.spread = score * safeSqrt(1.0 - record.scatterPart);
-    submit(guide, updateOf(kUpdateShare, record.cell, 0u, gains), order);
+    carryOut(guide, updateOf(kUpdateShare, record.cell, 0u, gains));
   }
   const bool accepted = score > kLeastChainWeight && rngFloat(rng) * record.meanWeight < score;
   const bool guided = record.source != kNoState;
@@ -80,13 +64,13 @@ void learn(GuidePtr guide, GuideRecord record, vec3 value, uvec2 order, inout Rn
     chainAdd(guide, state, record.point, record.target, record.velocity, score, accepted);
   }
   if (kGuideWeight == kWeightMean && guided) {
-    submit(guide, updateOf(kUpdateState, record.source, floatBitsToUint(record.state.weight), state), order);
+    carryOut(guide, updateOf(kUpdateState, record.source, floatBitsToUint(record.state.weight), state));
   }
   if (accepted && chainIsSound(state)) {
     ++learnAccepted;
-    storeChain(guide, state, record.point, record.normal, order, rng);
+    storeChain(guide, state, record.point, record.normal, rng);
   } else if (kGuideWeight == kWeightForgets && guided && !accepted) {
-    forget(guide, record, score, order);
+    forget(guide, record, score);
   }
 }
 
@@ -101,11 +85,11 @@ vec3 cachedRadiance(GuidePtr guide, vec3 point, vec3 facing, inout Rng rng) {
   return isFinite(radiance) ? max(radiance, vec3(0.0)) : vec3(0.0);
 }
 
-void cacheRadiance(GuidePtr guide, GuideRecord record, vec3 value, uvec2 order, inout Rng rng) {
+void cacheRadiance(GuidePtr guide, GuideRecord record, vec3 value, inout Rng rng) {
   const CellKey key = radianceKey(guide, record.point, record.normal, rng);
   ChainState sample_ = kEmptyState;
   sample_.target = value;
-  submit(guide, updateOf(kUpdateRadiance, key.window, key.fingerprint, sample_), order);
+  carryOut(guide, updateOf(kUpdateRadiance, key.window, key.fingerprint, sample_));
 }
 
 #endif

@@ -106,9 +106,7 @@ float lobesPdf(vec3 w) {
   }
   float sum = 0.0;
   [[unroll]] for (uint i = 0u; i < kLobes; ++i) {
-    if (mixture.lobes[i].weight > 0.0) {
-      sum += mixture.lobes[i].weight * vmfPdf(mixture.lobes[i].mu, mixture.lobes[i].kappa, w);
-    }
+    sum += mixture.lobes[i].peak * exp(-mixture.lobes[i].kappa * oneMinusCosBetween(mixture.lobes[i].mu, w));
   }
   return sum / mixture.weightSum;
 }

@@ -1,14 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes to the store. Threads write without locks: the last one wins, and what is torn is still a lobe (chainIsSound), so
-// that only the variance knows. Where bits must repeat, writes are logged and carried out in order (kGuideLog).
+// that only the variance knows.
 #ifndef TYNDALL_GUIDE_STORE_GLSL
 #define TYNDALL_GUIDE_STORE_GLSL
 
 #include "guide/chain.glsl"
 #include "guide/hash_grid.glsl"
 
+const uint kUpdateChain = 0u;     // a state for a vertex
+const uint kUpdateState = 1u;     // what a state becomes, if it still has the old weight
+const uint kUpdateShare = 2u;     // gains of a cell
+const uint kUpdateRadiance = 3u;  // a sample of the cache
+
+// A write to the store, as a value.
+struct GuideUpdate {
+  uint kind;           // kUpdate*
+  uint place;          // first cell of the window; State: the state; Share: the cell
+  uint fingerprint;    // State: bits of the old weight
+  ChainState state;    // Share: weight, spread = gains; Radiance: target = sample
+};
+
 uint storeEvicted = 0u;
-uint storeLogged = 0u;
 
 // The cell for a key: its own, else a free one, else the one that was written longest ago.
 uint claimCell(GuidePtr guide, uint first, uint fingerprint) {

@@ -6,12 +6,14 @@
 
 #include "core/frame.glsl"
 
+// Density at mu itself [1/sr].
+float vmfPeak(float kappa) {
+  return kInvFourPi * (kappa > 1e-30 ? 2.0 * kappa / oneMinusExp(2.0 * kappa) : 1.0);
+}
+
 // Density of the unit direction w [1/sr]. 1 - mu.w comes from the difference of the vectors: the dot product has lost a
 // narrow lobe's angles. No special case at kappa = 0 [Tokuyoshi23].
-float vmfPdf(vec3 mu, float kappa, vec3 w) {
-  const float normalisation = kappa > 1e-30 ? 2.0 * kappa / oneMinusExp(2.0 * kappa) : 1.0;
-  return kInvFourPi * normalisation * exp(-kappa * oneMinusCosBetween(mu, w));
-}
+float vmfPdf(vec3 mu, float kappa, vec3 w) { return vmfPeak(kappa) * exp(-kappa * oneMinusCosBetween(mu, w)); }
 
 // A direction from xi in (0, 1)^2 by inversion; 1 - cos is what is drawn, for the same reason [Jakob12].
 vec3 vmfSample(vec3 mu, float kappa, vec2 xi) {

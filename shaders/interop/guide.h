@@ -79,21 +79,6 @@ struct GuideRecord {
 };
 GPU_BUFFER(GuideRecord)
 
-GPU_CONST uint kUpdateChain = 0;     // a state for a vertex
-GPU_CONST uint kUpdateState = 1;     // what a state becomes, if it still has the old weight
-GPU_CONST uint kUpdateShare = 2;     // gains of a cell
-GPU_CONST uint kUpdateRadiance = 3;  // a sample of the cache
-
-// A write to the store, as a value: carried out at once, or logged and carried out in order.
-struct GuideUpdate {
-  uint kind;           // kUpdate*
-  uint place;          // first cell of the window; State: the state; Share: the cell
-  uint fingerprint;    // State: bits of the old weight
-  uint order[2];       // logged: pixel, and number within it
-  ChainState state;    // Share: weight, spread = gains; Radiance: target = sample
-};
-GPU_BUFFER(GuideUpdate)
-
 // What guiding did, added up over a dispatch.
 struct GuideCounters {
   uint vertices;       // that loaded states
@@ -102,7 +87,6 @@ struct GuideCounters {
   uint accepted;       // samples that became states
   uint forgotten;      // states that lost weight
   uint evicted;        // cells that another vertex took over
-  uint logged;         // updates in the log
   uint unsound;        // scores that were not finite
 };
 GPU_BUFFER(GuideCounters)
@@ -113,7 +97,6 @@ struct Guide {
   GPU_PTR(ChainState) states;
   GPU_PTR(RadianceCell) radiance;
   GPU_PTR(GuideRecord) records;   // mostRecords for each pixel of a dispatch
-  GPU_PTR(GuideUpdate) log;
   GPU_PTR(GuideCounters) counters;
   vec3 camera;         // where cells are finest
   vec3 shift;          // from centred world space to the store's
@@ -138,11 +121,11 @@ struct Guide {
   float forgetRate;    // of the weight that a miss takes away, (0, 1]
   float radianceLimit; // a sample of the cache counts for at most this many times the mean
   float time;          // of the frame [s]
+  float frameTime;     // since the frame before [s]
   float mostTime;      // a target is moved ahead for at most this long [s]
   float farDistance;   // where targets at infinity stand
   uint round;          // of learning, counted on
   uint mostRecords;    // vertices of a path that learn
-  uint logSize;
 };
 GPU_BUFFER(Guide)
 

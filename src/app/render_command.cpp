@@ -141,7 +141,7 @@ private:
     pose_ = gpu_scene::poseOf(prepared.scene, prepared.volumes.meshes);
     poseFrame_ = frame;
     prepared.timings.upload = upload.seconds();
-    prepared.guide = guidePlan(prepared);
+    prepared.guide = guidePlan(prepared, frame);
     const Stopwatch estimator;
     prepared.estimator = render::makeEstimator(device_, *prepared.gpuScene, prepared.volumes,
                                                estimatorOptions(request_, prepared));
@@ -151,7 +151,7 @@ private:
   }
 
   /// The chains of the frames before go on, where there are any.
-  std::optional<render::GuidePlan> guidePlan(const Prepared& prepared) {
+  std::optional<render::GuidePlan> guidePlan(const Prepared& prepared, const std::optional<int>& frame) {
     if (prepared.scene.render.integrator == scene::Integrator::Path) {
       return std::nullopt;
     }
@@ -163,6 +163,8 @@ private:
       guide_ = render::GuidePlan{settings, std::make_shared<guide::Store>(device_, size), prepared.gpuScene->centre()};
     }
     guide_->settings = settings;
+    guide_->frameTime = 1.0 / prepared.scene.animation.framesPerSecond;
+    guide_->time = double(frame.value_or(0)) * guide_->frameTime;
     return guide_;
   }
 

@@ -115,6 +115,10 @@ void sayWhatCameOut(const PictureContext& context, const RenderRecord& record, c
     context.say(fmt::format("paths: {:.2f} scattering events per sample, {} in the longest",
                             double(report.totals.events) / double(report.totals.samples), report.totals.longest));
   }
+  if (report.guideGain) {
+    context.say(fmt::format("guiding: {:.2g} times the variance x time of going without it{}", 1.0 / *report.guideGain,
+                            *report.guideGain < 1.0 ? ", so it was switched off after the trial" : ""));
+  }
   if (report.totals.negative > 0) {
     context.say(fmt::format("{} samples were negative, which this estimator may produce", report.totals.negative));
   }
@@ -167,9 +171,8 @@ render::EstimatorOptions estimatorOptions(const RenderRequest& request, const Pr
           .deltaTracking = request.deltaTracking.value_or(false),
           .preview = request.preview,
           .cacheBytes = prepared.choice.cacheBytes,
-          .techniques = prepared.scene.render.lightSampling
-                            ? interop::kTechniqueLight | interop::kTechniqueDirection
-                            : interop::kTechniqueDirection,
+          .techniques = prepared.scene.render.lightSampling ? interop::kTechniqueLight | interop::kTechniqueDirection
+                                                            : interop::kTechniqueDirection,
           .rays = request.rays,
           .guide = prepared.guide};
 }

@@ -76,8 +76,11 @@ double ratio(std::uint64_t part, std::uint64_t whole) { return whole > 0 ? doubl
 
 /// What guiding did, and what its store holds.
 Json guidingJson(const RenderRecord& record, const render::GuideReport& guide) {
+  const std::optional<double>& gain = record.report.guideGain;
   const render::GuideTotals& totals = guide.totals;
   return {{"integrator", scene::integratorName(record.scene.render.integrator)},
+          {"gain", gain ? Json(*gain) : Json(nullptr)}, // of variance times time, measured on this picture
+          {"switched_off", gain.value_or(1.0) < 1.0},
           {"vertices", totals.vertices},
           {"guided_share", ratio(totals.guided, totals.vertices)},
           {"states_per_vertex", ratio(totals.states, totals.vertices)},

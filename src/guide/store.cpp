@@ -43,7 +43,7 @@ bool sound(const interop::ChainState& state) {
 StoreSize storeSize(const scene::GuideSettings& settings, std::size_t pixels, double bytes) {
   StoreSize size;
   size.states = settings.states;
-  const double perCell = sizeof(interop::GuideCell) + settings.states * sizeof(interop::ChainState);
+  const double perCell = double(sizeof(interop::GuideCell) + settings.states * sizeof(interop::ChainState));
   const double cache = settings.score == scene::GuideScore::Cache ? kRadianceShare : 0.0;
   const double grids = settings.staticGrid ? 1.0 + kStaticShare : 1.0;
   const double most = bytes / (grids * perCell + cache * sizeof(interop::RadianceCell));
@@ -58,7 +58,7 @@ StoreSize storeSize(const scene::GuideSettings& settings, std::size_t pixels, do
 
 double storeBytes(const StoreSize& size) {
   const double cells = double(size.cells) + size.staticCells;
-  return cells * (sizeof(interop::GuideCell) + size.states * sizeof(interop::ChainState)) +
+  return cells * double(sizeof(interop::GuideCell) + size.states * sizeof(interop::ChainState)) +
          size.radiance * double(sizeof(interop::RadianceCell));
 }
 

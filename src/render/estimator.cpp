@@ -85,7 +85,8 @@ std::unique_ptr<Estimator> makeEstimator(const gpu::Device& device, const gpu_sc
 
 double plannedBytes(const gpu::Device& device, const EstimatorOptions& options) {
   const double perPixel = sizeof(std::uint32_t) + sizeof(interop::PixelSums) + 2.0 * stateBytes(options.method);
-  return perPixel * chunkFor(device, options);
+  const double guiding = options.guide ? guidingBytes(options.guide->settings, chunkFor(device, options)) : 0.0;
+  return perPixel * chunkFor(device, options) + guiding;
 }
 
 } // namespace tyndall::render

@@ -6,6 +6,7 @@
 #include "passes/path/path_io.h"
 #include "render/guiding.h"
 #include "render/ray_choice.h"
+#include "render/sample_range.h"
 
 #include <cstdint>
 #include <map>
@@ -42,7 +43,7 @@ struct EstimatorOptions {
       interop::kTechniqueLight | interop::kTechniqueDirection; ///< paths: interop::kTechnique*, one or both
   RayCaster rays = RayCaster::Auto; ///< paths
   bool aim = true; ///< paths: distances in homogeneous media drawn towards small lights as well
-  std::optional<GuidePlan> guide; ///< paths: directions are guided
+  std::optional<GuidePlan> guide{}; ///< paths: directions are guided
   std::uint32_t plantedBug = 0;                                ///< tests only: interop::kBug*
 };
 
@@ -62,12 +63,6 @@ struct Totals {
   std::uint64_t events = 0;           ///< paths: scattering events
   std::uint64_t longest = 0;          ///< paths: most events of one
   std::uint64_t cut = 0;              ///< march: rays that were not walked to their end
-};
-
-/// A run of consecutive samples of one batch, the same for every pixel of a call.
-struct SampleRange {
-  std::uint32_t first = 0; ///< index within the pixel
-  std::uint32_t count = 0; ///< 1 .. kBatchSamples, not beyond the batch's end
 };
 
 /// Light caches of a march.
@@ -94,6 +89,8 @@ public:
   virtual CacheReport caches() const { return {}; }
   /// Null where nothing is guided.
   virtual const Guiding* guiding() const { return nullptr; }
+  /// How many times less variance times time guiding has; below 1 it has been switched off. nullopt: not measured.
+  virtual std::optional<double> guideGain() const { return std::nullopt; }
 
   const Totals& totals() const { return totals_; }
   /// Starts counting anew.

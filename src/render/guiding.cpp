@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/guiding.h"
 
+#include "base/error.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -29,7 +31,9 @@ double guideUnit(const scene::GuideSettings& settings, const gpu_scene::GpuScene
   return (diagonal > 0.0 ? diagonal : fromCamera > 0.0 ? fromCamera : 1.0) / kUnitsOfDiagonal;
 }
 
-void setGuideSpec(const scene::GuideSettings& settings, passes::PathSpec& spec) {
+void setGuideSpec(const scene::GuideSettings& settings, const gpu_scene::Features& features, passes::PathSpec& spec) {
+  // A mixture has room for no more: lobes beyond would be lost, and the picture biased.
+  TYNDALL_CHECK(settings.loads * settings.states <= interop::kMostLobes);
   spec.kGuide = true;
   spec.kGuideLoads = settings.loads;
   spec.kGuideStates = settings.states;
@@ -39,6 +43,7 @@ void setGuideSpec(const scene::GuideSettings& settings, passes::PathSpec& spec) 
   spec.kGuideShare = settings.learnShare;
   spec.kGuideWeight = static_cast<std::uint32_t>(settings.weight);
   spec.kGuideLearn = settings.learn;
+  spec.kGuideMotion = features.motion;
 }
 
 Guiding::Guiding(const gpu::Device& device, const gpu_scene::GpuScene& scene, const GuidePlan& plan,
@@ -75,6 +80,7 @@ interop::Guide Guiding::describe(const gpu_scene::GpuScene& scene) const {
   guide.forgetRate = float(settings.forgetRate);
   guide.radianceLimit = float(settings.radianceLimit);
   guide.time = float(plan_.time);
+  guide.frameTime = float(plan_.frameTime);
   guide.mostTime = float(settings.mostTime);
   guide.farDistance = float(kFarUnits * unit);
   guide.mostRecords = settings.records;

@@ -15,6 +15,7 @@ struct GuidePlan {
   std::shared_ptr<guide::Store> store;
   glm::dvec3 origin{0.0}; ///< of the store's space, in the world
   double time = 0.0;      ///< of the frame [s]
+  double frameTime = 1.0; ///< since the frame before [s]
 };
 
 /// Counters over all dispatches so far.
@@ -40,7 +41,7 @@ struct GuideReport {
 double guideUnit(const scene::GuideSettings& settings, const gpu_scene::GpuScene& scene);
 
 /// Specialization of the path pass for the settings.
-void setGuideSpec(const scene::GuideSettings& settings, passes::PathSpec& spec);
+void setGuideSpec(const scene::GuideSettings& settings, const gpu_scene::Features& features, passes::PathSpec& spec);
 
 /// Device side of a plan for one estimator: its constants, and the records of paths in flight.
 class Guiding {

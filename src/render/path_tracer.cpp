@@ -48,14 +48,15 @@ passes::PathSpec pathSpecFor(const gpu_scene::Features& features, const Estimato
       features.aimed && options.aim && options.techniques == (interop::kTechniqueLight | interop::kTechniqueDirection);
   spec.kMediumTree = features.mediumTree;
   if (options.guide) {
-    setGuideSpec(options.guide->settings, spec);
+    setGuideSpec(options.guide->settings, features, spec);
   }
   spec.kPlantedBug = options.plantedBug;
   return spec;
 }
 
 PathTracer::PathTracer(const gpu::Device& device, const gpu_scene::GpuScene& scene, const EstimatorOptions& options)
-    : scene_(scene), spec_(pathSpecFor(scene.features(), options)), runner_(device, options) {
+    : device_(device), scene_(scene), spec_(pathSpecFor(scene.features(), options)), runner_(device, options),
+      trial_(options.guide && options.guide->settings.watch && options.guide->settings.learn) {
   if (options.guide) {
     guiding_ = std::make_unique<Guiding>(device, scene, *options.guide, chunkPixels());
   }
@@ -135,17 +136,61 @@ void PathTracer::collect(const interop::PathCounters& counters) {
 std::span<const interop::PixelSums> PathTracer::run(std::span<const std::uint32_t> pixels, SampleRange samples,
                                                     std::uint32_t seed) {
   totals_.samples += std::uint64_t(pixels.size()) * samples.count;
+  return trial_.watched(samples) ? runTrial(pixels, samples, seed)
+                                 : runWith(trial_.guided(samples), pixels, samples, seed);
+}
+
+std::span<const interop::PixelSums> PathTracer::runWith(bool guided, std::span<const std::uint32_t> pixels,
+                                                        SampleRange samples, std::uint32_t seed) {
+  const auto collectThem = [this](const interop::PathCounters& counters) { collect(counters); };
+  if (!guided) {
+    return runner_.run(plainPass(), inputs(), pixels, samples, seed, stageCost(), collectThem);
+  }
   if (guiding_) {
     guiding_->begin();
   }
-  const std::span<const interop::PixelSums> sums =
-      runner_.run(*pass_, inputs(), pixels, samples, seed, stageCost(),
-                  [this](const interop::PathCounters& counters) { collect(counters); });
+  const auto sums = runner_.run(*pass_, inputs(), pixels, samples, seed, stageCost(), collectThem);
   if (guiding_) {
     guiding_->end();
     guiding_->store().nextRound();
   }
   return sums;
 }
+
+/// The batch in two halves, timed.
+std::span<const interop::PixelSums> PathTracer::runTrial(std::span<const std::uint32_t> pixels, SampleRange samples,
+                                                         std::uint32_t seed) {
+  const bool guided = trial_.guided(samples);
+  if (!guided) {
+    plainPass();
+  }
+  const SampleRange half{samples.first, samples.count / 2};
+  const auto start = std::chrono::steady_clock::now();
+  const auto first = runWith(guided, pixels, half, seed);
+  trialSums_.assign(first.begin(), first.end());
+  const auto second = runWith(guided, pixels, {half.first + half.count, samples.count - half.count}, seed);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  trial_.take(samples, trialSums_, second, seconds);
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    addTo(trialSums_[i], second[i]);
+  }
+  return trialSums_;
+}
+
+/// The pass without guiding. Drivers compile at the first dispatch: a trial must not be timed with it.
+const passes::PathPass& PathTracer::plainPass() {
+  if (!plain_) {
+    passes::PathSpec spec = spec_;
+    spec.kGuide = false;
+    plain_ = std::make_unique<passes::PathPass>(device_, spec, scene_.images(), rays_ ? &rays_->top() : nullptr);
+    const std::uint32_t pixel = 0;
+    runner_.run(*plain_, inputs(), std::span(&pixel, 1), {0, 1}, 0, stageCost(), [](const interop::PathCounters&) {});
+  }
+  return *plain_;
+}
+
+const Guiding* PathTracer::guiding() const { return guiding_.get(); }
+
+std::optional<double> PathTracer::guideGain() const { return trial_.gain(); }
 
 } // namespace tyndall::render

@@ -4,6 +4,7 @@
 #include "gpu_scene/ray_query.h"
 #include "passes/path/path_pass.h"
 #include "render/batch_runner.h"
+#include "render/guide_watch.h"
 
 namespace tyndall::render {
 
@@ -20,7 +21,8 @@ public:
   std::uint32_t chunkPixels() const override { return runner_.chunkPixels(); }
   std::size_t kernelBytes() const override { return pass_->kernel().spirvBytes(); }
   std::map<std::string, std::string> pipeline() const override;
-  const Guiding* guiding() const override { return guiding_.get(); }
+  const Guiding* guiding() const override;
+  std::optional<double> guideGain() const override;
 
 private:
   void choosePass(const gpu::Device& device, RayCaster wanted);
@@ -29,14 +31,23 @@ private:
   std::uint32_t stageCost() const;
   interop::PathInputs inputs() const;
   void collect(const interop::PathCounters& counters);
+  std::span<const interop::PixelSums> runWith(bool guided, std::span<const std::uint32_t> pixels, SampleRange samples,
+                                              std::uint32_t seed);
+  std::span<const interop::PixelSums> runTrial(std::span<const std::uint32_t> pixels, SampleRange samples,
+                                               std::uint32_t seed);
+  const passes::PathPass& plainPass();
 
+  const gpu::Device& device_;
   const gpu_scene::GpuScene& scene_;
   passes::PathSpec spec_;
   std::optional<gpu_scene::RayQueryTree> rays_; ///< of the pass with ray queries
   std::unique_ptr<passes::PathPass> pass_;
   RayChoice rayChoice_;
   std::unique_ptr<Guiding> guiding_; ///< null: paths are not guided
+  std::vector<interop::PixelSums> trialSums_;
+  std::unique_ptr<passes::PathPass> plain_; ///< without guiding, once it is wanted
   BatchRunner<passes::PathPass, interop::PathInputs, interop::PathState, interop::PathCounters> runner_;
+  GuideTrial trial_;
 };
 
 } // namespace tyndall::render

@@ -93,6 +93,7 @@ public:
     report_.seconds = secondsSince(start_);
     if (estimator_->guiding() != nullptr) {
       report_.guide = estimator_->guiding()->report();
+      report_.guideGain = estimator_->guideGain();
     }
     return std::move(film_);
   }
@@ -176,8 +177,8 @@ private:
     }
   }
 
-  /// What learns takes the first batch in rounds over the whole picture, each as long as all before it: later samples of
-  /// it know what earlier ones have found. The film takes the batch as a whole.
+  /// What learns takes the first batch in rounds over the whole picture, each as long as all before it: later samples
+  /// of it know what earlier ones have found. The film takes the batch as a whole.
   void runRounds(const std::vector<std::uint32_t>& pixels, std::uint32_t batch, SampleRange samples) {
     Rounds rounds{.batchSamples = samples.count, .sums = {}};
     if (batch == 0 && estimator_->guiding() != nullptr) {

@@ -44,6 +44,7 @@ struct RenderReport {
   std::map<std::string, std::string> pipeline; ///< what was left out of it
   CacheReport caches;
   std::optional<GuideReport> guide; ///< where directions were guided
+  std::optional<double> guideGain;  ///< Estimator::guideGain
   std::size_t kernelBytes = 0;
   std::size_t mediaPixels = 0;       ///< pixels that may see a medium
   std::size_t backgroundPixels = 0;  ///< finished by the first passes

@@ -72,7 +72,8 @@ public:
     animation_.framesPerSecond = read.framesPerSecond;
     for (std::size_t i = 0; i < read.tracks.size(); ++i) {
       const std::string path = fmt::format("animation.tracks.{}", i);
-      if (!reportedLater.errorIn(path)) {
+      const bool unread = read.tracks[i].keys.empty(); // text that is no JSON was reported when it was parsed
+      if (!unread && !reportedLater.errorIn(path)) {
         apply(read.tracks[i], path + ".target", frame);
       }
     }

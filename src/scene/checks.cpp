@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/checks.h"
 
+#include "interop/guide.h"
 #include "scene/check_report.h"
 #include "scene/checks_surfaces.h"
 
@@ -17,6 +18,7 @@ public:
 
   void run() {
     checkCamera();
+    checkGuide();
     report_.checkNames("media", scene_.media);
     report_.checkNames("lights", scene_.lights);
     for (std::size_t i = 0; i < scene_.media.size(); ++i) {
@@ -42,6 +44,25 @@ private:
     if (glm::length(glm::cross(forward, camera.up)) < 1e-6) {
       report_.error("camera.up", "is parallel to the direction of view; choose another, such as [0, 0, 1] for a camera "
                                  "that looks straight up or down");
+    }
+  }
+
+  /// Of two settings that contradict each other the one is blamed that is not the integrator's own.
+  void checkGuide() {
+    const GuideSettings& guide = scene_.guide;
+    const GuideSettings usual = guideSettings(guide.preset);
+    if (!report_.wrong("guide", {"loads", "states"}) && guide.loads * guide.states > interop::kMostLobes) {
+      report_.error(guide.loads != usual.loads ? "guide.loads" : "guide.states",
+                    fmt::format("makes {} lobes, {} loads times {} states, but {} is the most; take at most {} loads "
+                                "or {} states",
+                                guide.loads * guide.states, guide.loads, guide.states, interop::kMostLobes,
+                                interop::kMostLobes / guide.states, interop::kMostLobes / guide.loads));
+    }
+    if (!report_.wrong("guide", {"least_share", "most_share"}) && guide.leastShare > guide.mostShare) {
+      report_.error(guide.leastShare != usual.leastShare ? "guide.least_share" : "guide.most_share",
+                    fmt::format("leaves nothing between the least_share of {} and the most_share of {}; make the least "
+                                "at most the most",
+                                guide.leastShare, guide.mostShare));
     }
   }
 

@@ -7,6 +7,8 @@ GuideSettings guideSettings(Integrator integrator) {
   GuideSettings settings;
   settings.preset = integrator;
   if (integrator != Integrator::McpgPaper) {
+    settings.cells.angle = 0.1; // cells must fill before a picture of some hundred samples is done
+    settings.mostShare = 0.95;  // 1 / share compounds over the events of a path
     return settings;
   }
   // The published settings; a unit of the game that they were made in is taken for a thousandth of the diagonal.

@@ -7,9 +7,9 @@ namespace tyndall::scene {
 
 /// How directions of paths are drawn.
 enum class Integrator {
-  Path,         ///< by scattering and light samples alone
-  McpgPaper,    ///< Markov chains as published [Alber25]
-  Mcpg,         ///< the same parts, set for multiple scattering beside light sampling
+  Path,      ///< by scattering and light samples alone
+  McpgPaper, ///< Markov chains as published [Alber25]
+  Mcpg,      ///< the same parts, set for multiple scattering beside light sampling
 };
 
 /// Where the score of a direction comes from.
@@ -33,11 +33,11 @@ struct GuideLevels {
   double spread = 1.0; ///< a vertex k levels coarser is taken with probability 2^-k spread; 0: never
 };
 
-/// Markov chain path guiding. Lengths are in units of `unit`; docs/guiding.md says what each is for and why it is what it
-/// is.
+/// Markov chain path guiding. Lengths are in units of `unit`; docs/guiding.md says what each is for and why it is what
+/// it is.
 struct GuideSettings {
   Integrator preset = Integrator::Path; ///< whose defaults they began with
-  double unit = 0.0; ///< scene units; 0: the scene's diagonal / 1000
+  double unit = 0.0;                    ///< scene units; 0: the scene's diagonal / 1000
   GuideScore score = GuideScore::Path;
   std::uint32_t loads = 2;  ///< cells loaded at a vertex
   std::uint32_t states = 4; ///< of a cell; loads * states <= 16
@@ -45,8 +45,8 @@ struct GuideSettings {
   bool normals = false;     ///< adaptive cells differ by normal
   bool learnShare = true;   ///< of scattering's own directions
   GuideWeight weight = GuideWeight::Mean;
-  bool learn = true;        ///< false: the store is read alone
-  bool watch = true;        ///< measure what guiding gains, and leave it away where it does not pay
+  bool learn = true; ///< false: the store is read alone
+  bool watch = true; ///< measure what guiding gains, and leave it away where it does not pay
   GuideLevels cells;
   GuideLevels radiance{.angle = 0.02, .finest = 1.0, .ratio = 2.0, .spread = 0.0};
   double staticWidth = 100.0;
@@ -63,7 +63,7 @@ struct GuideSettings {
   double forgetBelow = 0.05;
   double forgetRate = 0.125;
   double radianceLimit = 8.0;
-  double mostTime = 0.25; ///< seconds that a target is moved ahead for at most
+  double mostTime = 0.25;    ///< seconds that a target is moved ahead for at most
   std::uint32_t records = 8; ///< vertices of a path that learn
   std::uint32_t window = 4;  ///< cells that a vertex may be in
   std::uint32_t slots = 0;   ///< adaptive cells; 0: by the picture and the memory

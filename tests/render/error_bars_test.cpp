@@ -97,7 +97,7 @@ double rRmse(const film::Film& film, const Moments& truth) {
 void expectPromiseKept(const TestScene& test, render::Method method, double target, const Moments& truth) {
   SCOPED_TRACE(render::methodName(method));
   FilmRunner runner(test, {.method = method});
-  const int runs = 40 * static_cast<int>(effort());
+  const int runs = 24 * static_cast<int>(effort());
   int kept = 0;
   int byError = 0;
   std::vector<double> means;
@@ -114,7 +114,7 @@ void expectPromiseKept(const TestScene& test, render::Method method, double targ
     means.push_back(mean);
   }
   EXPECT_EQ(byError, runs);
-  // 90 % of 40 runs is 36; fewer than 30 would be one in 4000.
+  // 90 % of 24 runs is 21.6; fewer than 16 would be one in 3000.
   EXPECT_GE(kept, static_cast<int>(0.9 * runs - 3.5 * std::sqrt(0.09 * runs)));
   const film::TestResult bias = film::welchTest(film::summarise(means), truth.image(0));
   EXPECT_GT(bias.p, kFamilyRate);
@@ -137,7 +137,7 @@ TEST(StoppingByError, KeepsItsPromiseInTheMarch) {
   sky.scene.lights.clear();
   sky.constant(0.3, false);
   for (const TestScene& test : {puff(), sky}) {
-    MomentOptions options{.replicates = 32, .samples = 256, .firstSeed = 900000};
+    MomentOptions options{.replicates = 16, .samples = 256, .firstSeed = 900000};
     options.estimator.method = render::Method::March;
     const Moments truth = renderMoments(test.scene, test.volumes, options);
     expectPromiseKept(test, render::Method::March, kMarchTarget, truth);

@@ -160,6 +160,9 @@ PathScene foggyFloor(double floorColour, double fogAlbedo) {
 
 /// One store: what surfaces have learnt serves media, and the reverse. An empty store does not.
 TEST(GuideChains, ServeSurfacesAndMediaAlike) {
+  if (effort() == 1) {
+    GTEST_SKIP() << "long version only";
+  }
   const PathScene floor = foggyFloor(0.7, 0.0);
   const PathScene fog = foggyFloor(0.0, 0.9);
   const StorePtr ofFloor = makeStore(kMcpg, floor);
@@ -199,6 +202,9 @@ Noise learningNoise(double scale, double unit, std::uint32_t seed) {
 
 /// Nothing is in absolute lengths: noise is the same at any scale. A unit of a fixed length is seen.
 TEST(GuideChains, DoNotKnowTheScale) {
+  if (effort() == 1) {
+    GTEST_SKIP() << "long version only";
+  }
   const Noise plain = learningNoise(1.0, 0.0, 1);
   for (const double scale : {1e-4, 1e6}) {
     const Ratio ratio = ratioOf(learningNoise(scale, 0.0, 1001), plain);
@@ -232,7 +238,7 @@ TEST_P(GuideLimits, HugeAndTinyLightInATinyStore) {
   const Verdict verdict = channelTest(guided, render(test, byPaths(many(1))));
   EXPECT_AGREES(verdict);
   fmt::print("{} states; {}\n", full.states, verdict.text());
-  if (GetParam() == Integrator::Mcpg) {
+  if (GetParam() == Integrator::Mcpg && effort() > 1) { // the fast version sees it in GuideUnbiasedChecks
     const MomentOptions wrong = withBug(guidedBy(store, settings, many(2001)), interop::kBugScatterShare);
     EXPECT_DIFFERS(channelTest(render(test, wrong), guided));
   }

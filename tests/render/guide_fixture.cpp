@@ -45,13 +45,15 @@ public:
     constexpr float kOdd[] = {std::numeric_limits<float>::quiet_NaN(), kInfinity, -kInfinity, -1.0f, 0.0f};
     return uniform(0.0, 1.0) < 0.1 ? kOdd[bits() % std::size(kOdd)] : float(std::pow(10.0, uniform(-10.0, 10.0)));
   }
+  /// Likewise; one in twenty is near the largest float, so that its product with a narrow lobe's density is beyond it.
+  float weight() { return uniform(0.0, 1.0) < 0.05 ? float(std::pow(10.0, uniform(30.0, 38.5))) : positive(); }
   /// Near the scene, or as far away as may be.
   float coordinate() { return float(uniform(-3.0, 3.0)) * (uniform(0.0, 1.0) < 0.1 ? positive() : 1.0f); }
 
   interop::ChainState state() {
     interop::ChainState made{};
     made.target = glm::vec3(coordinate(), coordinate(), coordinate());
-    made.weight = positive();
+    made.weight = weight();
     made.spread = uniform(0.0, 1.0) < 0.5 ? float(uniform(0.0, 2.0)) : positive();
     made.evidence = positive();
     made.time = positive();
@@ -76,6 +78,7 @@ StorePtr makeStore(const scene::GuideSettings& settings, const PathScene& test) 
 MomentOptions guidedBy(const StorePtr& store, const scene::GuideSettings& settings, MomentOptions options) {
   options = byPaths(options);
   options.estimator.guide = render::GuidePlan{.settings = settings, .store = store};
+  options.estimator.guide->settings.watch = false; // what is tested must not switch itself off
   return options;
 }
 

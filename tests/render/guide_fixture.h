@@ -32,7 +32,7 @@ void learn(const PathScene& test, const StorePtr& store, const scene::GuideSetti
 std::vector<interop::ChainState> statesOf(const guide::Store& store);
 
 /// Overwrites every state of the cells that are taken, and what the cells have learnt, with numbers without sense:
-/// targets anywhere, weights over 20 decades, some that are infinite or none.
+/// targets anywhere, weights over 20 decades, some that are infinite, none or near the largest float.
 void fillWithGarbage(guide::Store& store, unsigned seed);
 
 /// Mean over the pixels of the variance of one replicate, with a standard error from its spread over parts of the

@@ -144,8 +144,10 @@ TEST(DirectionalLightOnABox, HomogeneousAgreesInEveryPixel) {
       EXPECT_AGREES(pixelTest(moments, reference)) << sigmaT << nameOf(options);
       EXPECT_AGREES(imageTest(moments, meanOf(reference))) << sigmaT << nameOf(options);
       EXPECT_AGREES(imageTest(moments, std::exp(-2.0 * sigmaT), kTransmittance)) << sigmaT << nameOf(options);
-      const MomentOptions bad = withBug(options, interop::kBugNoInverse4Pi);
-      EXPECT_DIFFERS(pixelTest(renderMoments(test.scene, test.volumes, bad), reference)) << sigmaT << nameOf(options);
+      if (sigmaT == 1.0) {
+        const MomentOptions bad = withBug(options, interop::kBugNoInverse4Pi);
+        EXPECT_DIFFERS(pixelTest(renderMoments(test.scene, test.volumes, bad), reference)) << nameOf(options);
+      }
     }
   }
 }
@@ -193,7 +195,8 @@ TEST(PhaseFunctions, EveryModelAgreesWithQuadratureInASlab) {
     for (const MomentOptions& options : eachMethod({.replicates = 128, .samples = 32})) {
       EXPECT_AGREES(imageTest(renderMoments(test.scene, test.volumes, options), meanOf(reference), 0, 1e-4))
           << nameOf(options) << "\nphase " << static_cast<unsigned>(phase.id);
-      if (phase.id != PhaseId::Isotropic && phase.id != PhaseId::Rayleigh) {
+      const bool even = phase.id == PhaseId::Isotropic || phase.id == PhaseId::Rayleigh; // blind to the bug
+      if (!even && (effort() > 1 || phase.id == PhaseId::TwoLobe)) {
         const MomentOptions bad = withBug(options, interop::kBugPhaseSign);
         EXPECT_DIFFERS(imageTest(renderMoments(test.scene, test.volumes, bad), meanOf(reference), 0, 1e-4))
             << nameOf(options);

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 namespace tyndall::test {
@@ -68,11 +69,17 @@ void expectExtinctionAndLight(double size, double sigmaT, bool grid) {
   }
 }
 
+/// The fast version takes every other pair, the extremes among them.
 TEST(Survives, ExtinctionAndSizeOverTheirRanges) {
-  for (const double size : {1e-4, 1.0, 1e6}) {
-    for (const double sigmaT : {1e-8, 1e-4, 1.0, 1e4, 1e8}) {
+  constexpr double kSizes[] = {1e-4, 1.0, 1e6};
+  constexpr double kExtinctions[] = {1e-8, 1e-4, 1.0, 1e4, 1e8};
+  for (std::size_t i = 0; i < std::size(kSizes); ++i) {
+    for (std::size_t j = 0; j < std::size(kExtinctions); ++j) {
+      if (effort() == 1 && (i + j) % 2 != 0) {
+        continue;
+      }
       for (const bool grid : {false, true}) {
-        expectExtinctionAndLight(size, sigmaT, grid);
+        expectExtinctionAndLight(kSizes[i], kExtinctions[j], grid);
       }
     }
   }
@@ -161,16 +168,23 @@ TEST(Survives, PeakedPhaseFunctions) {
   }
 }
 
+/// A cube under a sun, a lamp and an environment of one strength.
+TestScene litCube(double strength) {
+  TestScene test = cube(1.0, 1.0, false);
+  std::get<scene::SunLight>(test.scene.lights[0].light).irradiance = glm::dvec3(strength);
+  test.point({0.0, 3.0, 0.0}, strength);
+  test.constant(strength);
+  return test;
+}
+
 TEST(Survives, LightsOfEveryStrength) {
+  const TestScene unit = litCube(1.0);
+  const OracleScene ofUnit(unit.scene, unit.volumes, {.relative = 1e-5});
+  const double mean = meanOf(ofUnit.picture([&](const OracleRay& ray) { return ofUnit.total(ray); }, 2));
   for (const double strength : {1e-12, 1e12}) {
-    TestScene test = cube(1.0, 1.0, false);
-    std::get<scene::SunLight>(test.scene.lights[0].light).irradiance = glm::dvec3(strength);
-    test.point({0.0, 3.0, 0.0}, strength);
-    test.constant(strength);
-    const OracleScene oracle(test.scene, test.volumes, {.relative = 1e-5});
-    const auto reference = oracle.picture([&](const OracleRay& ray) { return oracle.total(ray); }, 2);
+    const TestScene test = litCube(strength);
     for (const MomentOptions& options : eachMethod()) { // 3e-3: edges of the box in the sphere rule
-      EXPECT_AGREES(imageTest(renderMoments(test.scene, test.volumes, options), meanOf(reference), 0, 3e-3))
+      EXPECT_AGREES(imageTest(renderMoments(test.scene, test.volumes, options), strength * mean, 0, 3e-3))
           << strength << nameOf(options);
     }
   }

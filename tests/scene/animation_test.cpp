@@ -162,6 +162,15 @@ TEST(AnimationProblems, AreReportedWhereTheyStand) {
   }
 }
 
+/// What is no JSON was reported by the parser, and nothing is said or done about the track that it stood in.
+TEST(AnimationProblems, TextThatIsNoJsonIsReportedOnce) {
+  const std::vector<std::string> keys{"@+", "[@+]", "[[@+, [1, 2, 3]]]", "[[1, @+]]",
+                                      "[[1, [1, 2, 3]], [2, [1, 2, @+]]]"};
+  for (const std::string& broken : keys) {
+    expectOne(moving(R"({"target": "lights.lamp.position", "keys": )" + broken + "}"), "+ is not a number", false);
+  }
+}
+
 TEST(AnimationProblems, EveryFrameIsValidated) {
   const std::string text = moving(R"({"target": "film.size", "keys": [[1, [10, 10]], [11, [20, 20]]]})");
   EXPECT_TRUE(at(text, 3).ok());

@@ -223,6 +223,34 @@ TEST(SceneProblems, Lights) {
   expectOne(inLight(R"("type": "sky", "sun_direction": @[0, 1, 0])"), "the sun is below the horizon", true);
 }
 
+TEST(SceneProblems, SettingsOfGuiding) {
+  const std::vector<Malformed> cases{
+      {R"("guide": {"states": @9})",
+       "guide.states: makes 18 lobes, 2 loads times 9 states, but 16 is the most; take at most 1 loads or 8 states"},
+      {R"("guide": {"loads": @5, "states": 4})", "guide.loads: makes 20 lobes"},
+      {R"("guide": {"loads": @16, "states": 16})", "take at most 1 loads or 1 states"},
+      {R"("render": {"integrator": "mcpg-paper"}, "guide": {"states": @4})", "makes 20 lobes, 5 loads times 4 states"},
+      {R"("guide": {"least_share": @0.9})", "leaves nothing between the least_share of 0.9 and the most_share of 0.85"},
+      {R"("guide": {"most_share": @0.2})", "guide.most_share: leaves nothing"},
+      {R"("guide": {"least_share": @0.6, "most_share": 0.5})", "guide.least_share: leaves nothing"},
+      {R"("guide": {"states": @0, "loads": 16})", "must be a whole number from 1 to 16"},
+  };
+  for (const Malformed& malformed : cases) {
+    expectOne(inScene(malformed.text), malformed.message, false);
+  }
+  const std::string most = inScene(R"("guide": {"loads": 4, "states": 4, "least_share": 0.5, "most_share": 0.5})");
+  EXPECT_TRUE(parse(most).problems.empty()) << listed(parse(most));
+}
+
+TEST(SceneProblems, SettingsOfGuidingFromTheCommandLine) {
+  const std::string text = inScene(R"("guide": {"unit": 1})");
+  const LoadResult result = parse(text, {{"guide.loads", "4"}, {"guide.states", "5"}});
+  ASSERT_EQ(result.problems.size(), 1u) << listed(result);
+  EXPECT_EQ(result.problems.front().location.file, "--set guide.loads=4");
+  EXPECT_THAT(result.problems.front().message, testing::HasSubstr("makes 20 lobes"));
+  EXPECT_TRUE(parse(text, {{"guide.loads", "4"}, {"guide.states", "4"}}).ok());
+}
+
 TEST(SceneProblems, WholeScenes) {
   expectOne(R"({"media": [{"type": "homogeneous", "shape": @{"type": "unbounded"}}], "lights": [{"type": "sun"}]})",
             "is unbounded: no light comes from infinity (lights.0)", false);

@@ -35,7 +35,7 @@ void finishSample(inout Rng rng) {
       path.sums.extras[5 + c] += path.albedo[c];
     }
     if (kGuide && kGuideLearn) {
-      learnFromPath(io.guide, uvec2(path.slot, path.sampleIndex << 16), rng);
+      learnFromPath(io.guide, rng);
     }
     path.sums.moments[3] += path.transmittance;
     path.sums.extras[3] += path.depth;

@@ -52,7 +52,6 @@
   SPEC(uint, kGuideWeight,     36, 0u)          /* kWeight* of interop/guide.h */             \
   SPEC(bool, kGuideMotion,     37, false)       /* targets move */                            \
   SPEC(bool, kGuideLearn,      38, true)        /* the store is written */                    \
-  SPEC(bool, kGuideLog,        39, false)       /* ... in a second step, in order */          \
   SPEC(uint, kPlantedBug,      26, 0u)          /* tests: kBug*; 0 = none */
 // clang-format on
 

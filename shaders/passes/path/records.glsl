@@ -57,10 +57,13 @@ void recordLeaves(GuidePtr guide) {
   }
 }
 
-// The ray has met something that is no null boundary.
-void recordMeets(GuidePtr guide, vec3 point) {
+// The ray has met something that is no null boundary; `before`: where that was in the previous frame.
+void recordMeets(GuidePtr guide, vec3 point, vec3 before) {
   if (recording(kRecordMeets)) {
     guide.at[0].records.at[recordPlace(guide)].target = point + guide.at[0].shift;
+    if (kGuideMotion) {
+      guide.at[0].records.at[recordPlace(guide)].velocity = (point - before) / guide.at[0].frameTime;
+    }
     path.recordStage = kRecordArrives;
   }
 }
@@ -96,8 +99,7 @@ void recordEnds(GuidePtr guide) {
   path.recordStage = kRecordClosed;
 }
 
-// `order`: of the pixel and the sample, so that logged writes can be put in order.
-void learnFromPath(GuidePtr guide, uvec2 order, inout Rng rng) {
+void learnFromPath(GuidePtr guide, inout Rng rng) {
   recordEnds(guide);
   [[dont_unroll]] while (path.recordCount > 0u) {
     const GuideRecord record = guide.at[0].records.at[recordPlace(guide)];
@@ -105,10 +107,10 @@ void learnFromPath(GuidePtr guide, uvec2 order, inout Rng rng) {
     if (!kGuideCache) {
       value = perThroughput(path.radiance - record.left, record.throughput);
     }
-    learn(guide, record, value, order, rng);
+    learn(guide, record, value, rng);
     if (kGuideCache) {
       const vec3 lit = perThroughput(record.left - record.arrived, record.throughput);
-      cacheRadiance(guide, record, value + lit, order, rng);
+      cacheRadiance(guide, record, value + lit, rng);
     }
     --path.recordCount;
   }

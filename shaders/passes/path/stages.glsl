@@ -122,7 +122,8 @@ void recordFirst(float t, vec3 albedo) {
 
 void arriveInMedium(ScenePtr scene, float t, uint medium, inout Rng rng) {
   if (kGuide) {
-    recordMeets(io.guide, path.ray.origin + t * path.ray.direction);
+    const vec3 point = path.ray.origin + t * path.ray.direction;
+    recordMeets(io.guide, point, point);
   }
   if (path.events >= scene.at[0].maxEvents) {
     path.stage = kStageDone; // the last ray only looked for light
@@ -154,7 +155,7 @@ void arriveOnSurface(ScenePtr scene, HitAttributes hit, SurfacePass through, ino
     return;
   }
   if (kGuide) {
-    recordMeets(io.guide, hit.place.position);
+    recordMeets(io.guide, hit.place.position, placeBefore(scene, hit));
   }
   const SurfaceVertex surface = surfaceVertex(scene, hit);
   if (kEmissiveSurfaces && surface.emission != vec3(0.0)) {

@@ -3,6 +3,7 @@
 #ifndef TYNDALL_PATH_SURFACE_GLSL
 #define TYNDALL_PATH_SURFACE_GLSL
 
+#include "geometry/motion.glsl"
 #include "geometry/offset.glsl"
 #include "material/normal.glsl"
 #include "material/resolve.glsl"
@@ -88,6 +89,25 @@ HitAttributes hitAttributes(ScenePtr scene) {
     }
   }
   return hit;
+}
+
+// Where the point that was hit has been in the previous frame.
+vec3 placeBefore(ScenePtr scene, HitAttributes hit) {
+  if (!kGuideMotion) {
+    return hit.place.position;
+  }
+  SurfacesPtr surfaces = scene.at[0].surfaces;
+  const uint id = surfaces.at[0].primitives.at[path.hit.primitive].id;
+  const uint index = id & kPrimitiveIndexMask;
+  uint motion;
+  if (kSpheres && (id & kPrimitiveKindMask) == kPrimitiveSphere) {
+    motion = surfaces.at[0].spheres.at[index].motion;
+  } else if (kInstances && path.hit.instance != kNoInstance) {
+    motion = surfaces.at[0].instances.at[path.hit.instance].motion;
+  } else {
+    motion = surfaces.at[0].triangles.at[index].motion;
+  }
+  return previousPlace(surfaces, motion, hit.place.position);
 }
 
 float iorOf(SurfacesPtr surfaces, uint interior) {
