@@ -40,7 +40,7 @@ void loadLobe(GuidePtr guide, uint place, bool found, uint i, vec3 point, vec3 n
     moveTarget(guide, state);
   }
   const Lobe lobe = chainLobe(guide, state, point);
-  if (!(lobe.weight > 0.0) || (normal != vec3(0.0) && dot(normal, lobe.mu) <= 0.0)) {
+  if (!(lobe.peak > 0.0) || !isFinite(lobe.peak) || (normal != vec3(0.0) && dot(normal, lobe.mu) <= 0.0)) {
     return;
   }
   mixture.lobes[i] = lobe;

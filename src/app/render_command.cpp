@@ -21,6 +21,8 @@ namespace {
 constexpr double kDefaultMemoryShare = 0.8;
 /// Of the memory allowed, for chains at most.
 constexpr double kGuideMemoryShare = 0.25;
+/// Between the seeds of guided frames.
+constexpr std::uint32_t kFrameSeeds = 0x9e3779b9u;
 
 /// Device bytes that the render may take.
 double allowedBytes(const RenderRequest& request, const gpu::Device& device) {
@@ -135,16 +137,18 @@ private:
     prepared.timings.load += load.seconds();
     const Stopwatch upload;
     chooseMethod(prepared);
-    prepared.gpuScene = std::make_unique<gpu_scene::GpuScene>(device_, prepared.scene, prepared.volumes,
-                                                              render::layoutOf(prepared.choice.method),
-                                                              poseBefore(frame));
+    prepared.gpuScene = std::make_unique<gpu_scene::GpuScene>(
+        device_, prepared.scene, prepared.volumes, render::layoutOf(prepared.choice.method), poseBefore(frame));
     pose_ = gpu_scene::poseOf(prepared.scene, prepared.volumes.meshes);
     poseFrame_ = frame;
     prepared.timings.upload = upload.seconds();
     prepared.guide = guidePlan(prepared, frame);
+    if (prepared.guide) { // likewise: frames share a store
+      prepared.scene.render.seed += kFrameSeeds * static_cast<std::uint32_t>(frame.value_or(0));
+    }
     const Stopwatch estimator;
-    prepared.estimator = render::makeEstimator(device_, *prepared.gpuScene, prepared.volumes,
-                                               estimatorOptions(request_, prepared));
+    prepared.estimator =
+        render::makeEstimator(device_, *prepared.gpuScene, prepared.volumes, estimatorOptions(request_, prepared));
     prepared.timings.estimator = estimator.seconds();
     tellAbout(prepared);
     return result;
@@ -155,13 +159,20 @@ private:
     if (prepared.scene.render.integrator == scene::Integrator::Path) {
       return std::nullopt;
     }
-    const scene::GuideSettings& settings = prepared.scene.guide;
+    if (request_.error) {
+      fail(
+          "--error: rests on two halves of the samples that know nothing of each other, and guided ones learn from the "
+          "same chains; stop by --spp or --time, or give --integrator path");
+    }
+    scene::GuideSettings settings = prepared.scene.guide;
     const guide::StoreSize size =
         guide::storeSize(settings, std::size_t(prepared.scene.film.size.x) * prepared.scene.film.size.y,
                          kGuideMemoryShare * allowedBytes(request_, device_));
     if (!guide_ || !(guide_->store->size() == size)) {
       guide_ = render::GuidePlan{settings, std::make_shared<guide::Store>(device_, size), prepared.gpuScene->centre()};
+      guide_->settings.unit = render::guideUnit(settings, *prepared.gpuScene);
     }
+    settings.unit = guide_->settings.unit; // cells stay what they are where bounds move
     guide_->settings = settings;
     guide_->frameTime = 1.0 / prepared.scene.animation.framesPerSecond;
     guide_->time = double(frame.value_or(0)) * guide_->frameTime;
@@ -227,6 +238,10 @@ private:
     preparedFrame_ = source_.exposureFrame;
     const Stopwatch watch;
     source_.scene.film.exposure = chooseExposure(prepared_->scene, *prepared_->estimator, prepared_->choice.method);
+    if (prepared_->guide) {
+      // The picture draws the same random numbers again: what they have taught must not meet them.
+      prepared_->guide->store->clear();
+    }
     timings_.exposure = watch.seconds();
     prepared_->timings.exposure = timings_.exposure;
     if (preparedFrame_ != framesOf(request_).front()) {
@@ -251,7 +266,7 @@ private:
   Timings timings_;
   Source source_;
   std::optional<render::GuidePlan> guide_; ///< of the last frame
-  std::unique_ptr<Prepared> prepared_; ///< what the exposure was chosen from
+  std::unique_ptr<Prepared> prepared_;     ///< what the exposure was chosen from
   std::optional<int> preparedFrame_;
   gpu_scene::Pose pose_; ///< of the frame that was prepared last
   std::optional<int> poseFrame_;

@@ -107,7 +107,12 @@ void addWork(CLI::App& command, RenderRequest& request) {
       "NAME");
   text(
       command, "--integrator",
-      [&request](const std::string& value) { request.overrides.push_back({"render.integrator", value}); },
+      [&request](const std::string& value) {
+        if (value != "path" && value != "mcpg" && value != "mcpg-paper") {
+          fail("--integrator {}: there are path (the default), mcpg and mcpg-paper", value);
+        }
+        request.overrides.push_back({"render.integrator", value});
+      },
       "how directions of paths are drawn: path (scattering and lights), mcpg (guided by Markov chains), mcpg-paper (as "
       "published)",
       "NAME");

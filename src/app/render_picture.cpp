@@ -159,7 +159,8 @@ double plannedBytes(const PictureContext& context, const Prepared& prepared) {
   const double grids = cells ? gpu_scene::plannedCellBytes(prepared.gpuScene->media(), prepared.volumes)
                              : prepared.volumes.deviceBytes();
   const render::EstimatorOptions options = estimatorOptions(context.request, prepared);
-  return grids + double(prepared.gpuScene->surfaceBytes()) + prepared.estimator->caches().bytes +
+  const double chains = prepared.guide ? prepared.guide->store->bytes() : 0.0;
+  return grids + chains + double(prepared.gpuScene->surfaceBytes()) + prepared.estimator->caches().bytes +
          render::plannedBytes(context.device, options);
 }
 

@@ -34,8 +34,9 @@ std::span<const T> as(const std::vector<std::byte>& bytes) {
 }
 
 bool sound(const interop::ChainState& state) {
-  return std::isfinite(state.weight) && std::isfinite(state.spread) && std::isfinite(state.time) &&
-         std::isfinite(state.target.x) && std::isfinite(state.target.y) && std::isfinite(state.target.z);
+  return std::isfinite(state.weight) && state.weight <= 1e30f && std::isfinite(state.spread) &&
+         std::isfinite(state.time) && std::isfinite(state.target.x) && std::isfinite(state.target.y) &&
+         std::isfinite(state.target.z);
 }
 
 } // namespace

@@ -55,12 +55,12 @@ std::string needForPaths(const scene::Scene& scene, const gpu_scene::PackedMedia
   const bool spots = std::any_of(scene.lights.begin(), scene.lights.end(), [](const scene::NamedLight& named) {
     return std::holds_alternative<scene::SpotLight>(named.light);
   });
-  return !scene.objects.empty() ? "there are surfaces"
+  return !scene.objects.empty()                               ? "there are surfaces"
          : scene.render.integrator != scene::Integrator::Path ? "directions are guided"
-         : !scene.render.lightSampling ? "lights are found by directions alone"
-         : scene.depth() != 1   ? "light scatters more than once"
-         : media.chromatic      ? "extinction differs by channel"
-         : spots                ? "there are spot lights"
+         : !scene.render.lightSampling                        ? "lights are found by directions alone"
+         : scene.depth() != 1                                 ? "light scatters more than once"
+         : media.chromatic                                    ? "extinction differs by channel"
+         : spots                                              ? "there are spot lights"
          : scene.camera.lensRadius > 0.0 && scene.camera.kind == scene::Camera::Kind::Perspective
              ? "the camera has a lens"
              : "";

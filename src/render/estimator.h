@@ -94,7 +94,7 @@ public:
 
   const Totals& totals() const { return totals_; }
   /// Starts counting anew.
-  void resetTotals() { totals_ = {}; }
+  virtual void resetTotals() { totals_ = {}; }
 
 protected:
   Totals totals_;

@@ -64,14 +64,15 @@ std::optional<double> GuideWatch::gain() const {
 
 bool GuideTrial::watched(SampleRange samples) const {
   const std::uint32_t batch = samples.first / film::kBatchSamples;
-  return wanted_ && samples.count == film::kBatchSamples && (batch == kGuidedBatch || batch == kPlainBatch);
+  return wanted_ && begun_ && samples.count == film::kBatchSamples && (batch == kGuidedBatch || batch == kPlainBatch);
 }
 
 bool GuideTrial::guided(SampleRange samples) const {
   if (watched(samples)) {
     return samples.first / film::kBatchSamples == kGuidedBatch;
   }
-  return !wanted_ || samples.first / film::kBatchSamples <= kPlainBatch || watch_.gain().value_or(1.0) >= 1.0;
+  return !wanted_ || !begun_ || samples.first / film::kBatchSamples <= kPlainBatch ||
+         watch_.gain().value_or(1.0) >= 1.0;
 }
 
 void GuideTrial::take(SampleRange samples, std::span<const interop::PixelSums> first,

@@ -44,6 +44,9 @@ class GuideTrial {
 public:
   explicit GuideTrial(bool wanted) : wanted_(wanted) {}
 
+  /// Before each run: without the first batch there is nothing learnt to be tried.
+  void begin(SampleRange samples) { begun_ = begun_ || samples.first == 0; }
+
   /// Whether these samples are a trial's: a whole batch.
   bool watched(SampleRange samples) const;
   bool guided(SampleRange samples) const;
@@ -53,6 +56,7 @@ public:
 
 private:
   bool wanted_;
+  bool begun_ = false;
   GuideWatch watch_;
 };
 

@@ -89,10 +89,11 @@ interop::Guide Guiding::describe(const gpu_scene::GpuScene& scene) const {
 
 void Guiding::begin() {
   counters_.fillZero();
+  plan_.store->nextRound();
   header_.mapped()[0].round = plan_.store->round();
 }
 
-void Guiding::end() {
+void Guiding::collect() {
   const interop::GuideCounters& counters = counters_.mapped()[0];
   totals_.vertices += counters.vertices;
   totals_.states += counters.states;
@@ -101,6 +102,7 @@ void Guiding::end() {
   totals_.forgotten += counters.forgotten;
   totals_.evicted += counters.evicted;
   totals_.unsound += counters.unsound;
+  counters_.fillZero();
 }
 
 GuideReport Guiding::report() const {

@@ -50,11 +50,12 @@ public:
   Guiding(const gpu::Device& device, const gpu_scene::GpuScene& scene, const GuidePlan& plan, std::uint32_t pixels);
 
   interop::Ptr<interop::Guide> ptr() const { return header_.ptr(); }
-  /// Before a dispatch: counters at zero, the store's round written.
+  /// Before the dispatches of a call: counters at zero, the store in a round of its own.
   void begin();
-  /// After it: counters are added up.
-  void end();
+  /// After each of them: counters are added up, and at zero again.
+  void collect();
   const GuideTotals& totals() const { return totals_; }
+  void resetTotals() { totals_ = {}; }
   guide::Store& store() { return *plan_.store; }
   const guide::Store& store() const { return *plan_.store; }
   GuideReport report() const;

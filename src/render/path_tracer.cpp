@@ -13,6 +13,8 @@ namespace {
 constexpr std::uint32_t kCastSteps = 16;
 /// Of the picture, for timing: they fill a GPU for some milliseconds.
 constexpr std::size_t kProbePixels = 65536;
+/// Random numbers that no picture is likely to draw: a guided probe teaches the store.
+constexpr std::uint32_t kProbeSeed = 0xb5297a4du;
 
 } // namespace
 
@@ -108,7 +110,7 @@ double PathTracer::probeSeconds(const passes::PathPass& pass) {
   std::vector<std::uint32_t> pixels = dispatchOrder({glm::uvec2(0), scene_.imageSize()});
   pixels.resize(std::min({pixels.size(), std::size_t{chunkPixels()}, kProbePixels}));
   const auto start = std::chrono::steady_clock::now();
-  runner_.run(pass, inputs(), pixels, {0, 1}, 0, stageCost(), [](const interop::PathCounters&) {});
+  runner_.run(pass, inputs(), pixels, {0, 1}, kProbeSeed, stageCost(), [](const interop::PathCounters&) {});
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
@@ -136,25 +138,24 @@ void PathTracer::collect(const interop::PathCounters& counters) {
 std::span<const interop::PixelSums> PathTracer::run(std::span<const std::uint32_t> pixels, SampleRange samples,
                                                     std::uint32_t seed) {
   totals_.samples += std::uint64_t(pixels.size()) * samples.count;
+  trial_.begin(samples);
   return trial_.watched(samples) ? runTrial(pixels, samples, seed)
                                  : runWith(trial_.guided(samples), pixels, samples, seed);
 }
 
 std::span<const interop::PixelSums> PathTracer::runWith(bool guided, std::span<const std::uint32_t> pixels,
                                                         SampleRange samples, std::uint32_t seed) {
-  const auto collectThem = [this](const interop::PathCounters& counters) { collect(counters); };
-  if (!guided) {
-    return runner_.run(plainPass(), inputs(), pixels, samples, seed, stageCost(), collectThem);
-  }
   if (guiding_) {
     guiding_->begin();
   }
-  const auto sums = runner_.run(*pass_, inputs(), pixels, samples, seed, stageCost(), collectThem);
-  if (guiding_) {
-    guiding_->end();
-    guiding_->store().nextRound();
-  }
-  return sums;
+  const auto collectThem = [this](const interop::PathCounters& counters) {
+    collect(counters);
+    if (guiding_) {
+      guiding_->collect();
+    }
+  };
+  const passes::PathPass& pass = guided ? *pass_ : plainPass();
+  return runner_.run(pass, inputs(), pixels, samples, seed, stageCost(), collectThem);
 }
 
 /// The batch in two halves, timed.
@@ -187,6 +188,13 @@ const passes::PathPass& PathTracer::plainPass() {
     runner_.run(*plain_, inputs(), std::span(&pixel, 1), {0, 1}, 0, stageCost(), [](const interop::PathCounters&) {});
   }
   return *plain_;
+}
+
+void PathTracer::resetTotals() {
+  Estimator::resetTotals();
+  if (guiding_) {
+    guiding_->resetTotals();
+  }
 }
 
 const Guiding* PathTracer::guiding() const { return guiding_.get(); }

@@ -22,6 +22,7 @@ public:
   std::size_t kernelBytes() const override { return pass_->kernel().spirvBytes(); }
   std::map<std::string, std::string> pipeline() const override;
   const Guiding* guiding() const override;
+  void resetTotals() override;
   std::optional<double> guideGain() const override;
 
 private:

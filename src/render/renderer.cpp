@@ -35,8 +35,9 @@ film::Window wholeOr(const film::Window& crop, const glm::uvec2& size) {
 /// A batch that is taken in rounds over the picture.
 struct Rounds {
   std::uint32_t batchSamples = 0;
-  std::uint32_t done = 0;      ///< samples of the rounds before
-  std::vector<BatchSums> sums; ///< of the rounds so far, one per pixel; empty: there is one round
+  std::uint32_t done = 0;           ///< samples of the rounds before
+  std::vector<BatchSums> sums;      ///< of the rounds so far, one per pixel; empty: there is one round
+  std::vector<std::uint32_t> taken; ///< samples in them
 };
 
 void addTo(BatchSums& sum, const BatchSums& term) {
@@ -180,15 +181,22 @@ private:
   /// What learns takes the first batch in rounds over the whole picture, each as long as all before it: later samples
   /// of it know what earlier ones have found. The film takes the batch as a whole.
   void runRounds(const std::vector<std::uint32_t>& pixels, std::uint32_t batch, SampleRange samples) {
-    Rounds rounds{.batchSamples = samples.count, .sums = {}};
+    Rounds rounds;
+    rounds.batchSamples = samples.count;
     if (batch == 0 && estimator_->guiding() != nullptr) {
       rounds.sums.resize(pixels.size());
+      rounds.taken.resize(pixels.size());
     }
     while (rounds.done < samples.count && report_.stoppedBy.empty()) {
       const std::uint32_t left = samples.count - rounds.done;
       const std::uint32_t count = rounds.sums.empty() ? left : std::min(std::max(rounds.done, 1u), left);
       runPixels(pixels, batch, {samples.first + rounds.done, count}, rounds);
       rounds.done += count;
+    }
+    for (std::size_t i = 0; i < rounds.taken.size(); ++i) { // of a batch that was broken off
+      if (rounds.taken[i] > 0 && rounds.taken[i] < samples.count) {
+        takeBatch(pixels[i], batch, rounds.taken[i], rounds.sums[i]);
+      }
     }
   }
 
@@ -206,6 +214,7 @@ private:
         BatchSums batchSums = toBatchSums(sums[i]);
         if (!rounds.sums.empty()) {
           addTo(rounds.sums[first + i], batchSums);
+          rounds.taken[first + i] += samples.count;
           batchSums = rounds.sums[first + i];
         }
         if (last) {

@@ -73,6 +73,8 @@ TEST(GuideWatch, ABlackPictureAndAMissingTrialDecideNothing) {
 // Learns, tries guiding, tries going without, and then does what has won.
 TEST(GuideTrial, FollowsItsPlan) {
   render::GuideTrial trial(true);
+  EXPECT_FALSE(trial.watched({16, 16})) << "one that goes on from a later batch has learnt nothing";
+  trial.begin({0, 1});
   EXPECT_TRUE(trial.guided({0, 16}) && !trial.watched({0, 16}));
   EXPECT_TRUE(trial.guided({16, 16}) && trial.watched({16, 16}));
   EXPECT_TRUE(!trial.guided({32, 16}) && trial.watched({32, 16}));
