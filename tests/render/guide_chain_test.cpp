@@ -45,8 +45,9 @@ PathScene roomWithLamp(double x) {
 
 bool onLamp(const interop::ChainState& state, double x) {
   constexpr double kRounding = 1e-4;
-  return std::abs(state.target.x - x) <= kLampHalf + kRounding && std::abs(state.target.z) <= kLampHalf + kRounding &&
-         std::abs(state.target.y - kLampHeight) <= kRounding;
+  const glm::dvec3 target(state.target);
+  return std::abs(target.x - x) <= kLampHalf + kRounding && std::abs(target.z) <= kLampHalf + kRounding &&
+         std::abs(target.y - kLampHeight) <= kRounding;
 }
 
 double shareOnLamp(const std::vector<interop::ChainState>& states, double x) {
@@ -61,7 +62,7 @@ double meanSpread(const std::vector<interop::ChainState>& states) {
   double count = 0.0;
   for (const interop::ChainState& state : states) {
     if (state.evidence >= kMany) {
-      sum += state.spread;
+      sum += double(state.spread);
       count += 1.0;
     }
   }
@@ -247,8 +248,8 @@ TEST_P(GuideLimits, HugeAndTinyLightInATinyStore) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Integrators, GuideLimits, testing::Values(Integrator::McpgPaper, Integrator::Mcpg),
-                         [](const testing::TestParamInfo<Integrator>& info) {
-                           return info.param == Integrator::Mcpg ? "Mcpg" : "McpgPaper";
+                         [](const testing::TestParamInfo<Integrator>& tested) {
+                           return tested.param == Integrator::Mcpg ? "Mcpg" : "McpgPaper";
                          });
 
 } // namespace

@@ -164,7 +164,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, GuideUnbiased,
                                          Case{"Mist", mist, {}}, Case{"Smoke", smoke, {}},
                                          Case{"FoggyRoom", foggyRoom, {{Integrator::Mcpg, false, false}}},
                                          Case{"Glassware", glassware, {}}),
-                         [](const testing::TestParamInfo<Case>& info) { return info.param.name; });
+                         [](const testing::TestParamInfo<Case>& tested) { return tested.param.name; });
 
 /// The faintest in the long version alone.
 TEST(GuideUnbiasedChecks, PlantedBugsAreSeen) {
