@@ -87,9 +87,9 @@ vec3 cachedRadiance(GuidePtr guide, vec3 point, vec3 facing, inout Rng rng) {
 
 void cacheRadiance(GuidePtr guide, GuideRecord record, vec3 value, inout Rng rng) {
   const CellKey key = radianceKey(guide, record.point, record.normal, rng);
-  ChainState sample_ = kEmptyState;
-  sample_.target = value;
-  carryOut(guide, updateOf(kUpdateRadiance, key.window, key.fingerprint, sample_));
+  ChainState outgoing = kEmptyState;
+  outgoing.target = value;
+  carryOut(guide, updateOf(kUpdateRadiance, key.window, key.fingerprint, outgoing));
 }
 
 #endif

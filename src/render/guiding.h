@@ -56,8 +56,6 @@ public:
   void collect();
   const GuideTotals& totals() const { return totals_; }
   void resetTotals() { totals_ = {}; }
-  guide::Store& store() { return *plan_.store; }
-  const guide::Store& store() const { return *plan_.store; }
   GuideReport report() const;
 
 private:

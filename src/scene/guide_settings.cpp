@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/guide_settings.h"
 
+#include "scene/field_names.h"
+
 namespace tyndall::scene {
 
 GuideSettings guideSettings(Integrator integrator) {
@@ -32,13 +34,10 @@ GuideSettings guideSettings(Integrator integrator) {
 }
 
 const char* integratorName(Integrator integrator) {
-  switch (integrator) {
-  case Integrator::Path:
-    return "path";
-  case Integrator::McpgPaper:
-    return "mcpg-paper";
-  case Integrator::Mcpg:
-    return "mcpg";
+  for (const auto& [name, value] : kIntegrators) {
+    if (value == integrator) {
+      return name.data();
+    }
   }
   return "";
 }
