@@ -35,8 +35,8 @@ const float kMostChainWeight = 1e30;
 
 // Whether a state may be used. Torn writes and numbers out of range are as good as none.
 bool chainIsSound(ChainState state) {
-  return state.weight > kLeastChainWeight && state.weight <= kMostChainWeight && isFinite(state.weight) &&
-         isFinite(state.target) && state.spread >= 0.0 && state.spread <= 2.0 && state.evidence >= 0.0;
+  return state.weight > kLeastChainWeight && state.weight <= kMostChainWeight && isFinite(state.target) &&
+         state.spread >= 0.0 && state.spread <= 2.0 && state.evidence >= 0.0;
 }
 
 // The regularised mean of 1 - cos at a distance: few samples say little of a lobe's width, and sqrt(priorArea) is how

@@ -33,9 +33,11 @@ uint cubeFace(vec3 normal, uint level) {
 
 // A vertex of the lattice of `width`: each coordinate is rounded up with the probability of its fraction, in the mean
 // this interpolates between cells.
-ivec3 latticeVertex(vec3 point, float width, inout Rng rng) {
-  return ivec3(clamp(floor(point / width + rngFloat3(rng)), vec3(-2e9), vec3(2e9)));
+ivec3 latticeVertexBy(vec3 point, float width, vec3 roundUp) {
+  return ivec3(clamp(floor(point / width + roundUp), vec3(-2e9), vec3(2e9)));
 }
+
+ivec3 latticeVertex(vec3 point, float width, inout Rng rng) { return latticeVertexBy(point, width, rngFloat3(rng)); }
 
 CellKey cellKey(ivec3 vertex, uint level, uint face, uint first, uint count, uint window) {
   const uvec4 hash = pcg4d(uvec4(uvec3(vertex), level << 3 | face));
@@ -43,11 +45,15 @@ CellKey cellKey(ivec3 vertex, uint level, uint face, uint first, uint count, uin
   return CellKey(first + (hash.x % (count / window)) * window, max(print.x, 1u));
 }
 
+// Between the levels whose cells are just wide enough at a distance from the camera.
+float levelOf(GuideLevels levels, float distance) {
+  return log(max(levels.angle * distance, levels.finest) / levels.finest) / levels.ratioLog;
+}
+
 // The level whose cells have about the same angle everywhere, rounded at random so that no seam is seen, and with
 // probability 2^(-spread k) one that is k levels coarser: what is found in one place spreads through these.
 uint gridLevel(GuideLevels levels, float distance, inout Rng rng) {
-  const float width = max(levels.angle * distance, levels.finest);
-  float level = floor(log(width / levels.finest) / levels.ratioLog + rngFloat(rng));
+  float level = floor(levelOf(levels, distance) + rngFloat(rng));
   if (levels.spread > 0.0) {
     level += floor(-log2(rngFloat(rng)) / levels.spread);
   }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the score of a sample does to the chains: the state transition, and the share of scattering; (90)-(93).
+// What the score of a sample does to states, chains or fitted, and to the share of scattering; (90)-(93), (98)-(100).
 #ifndef TYNDALL_GUIDE_LEARN_GLSL
 #define TYNDALL_GUIDE_LEARN_GLSL
 
-#include "guide/store.glsl"
+#include "guide/chain.glsl"
+#include "guide/hash_grid.glsl"
+#include "guide/log.glsl"
 
 uint learnAccepted = 0u;
 uint learnForgotten = 0u;
@@ -17,16 +19,36 @@ GuideUpdate updateOf(uint kind, uint place, uint fingerprint, ChainState state) 
   update.kind = kind;
   update.place = place;
   update.fingerprint = fingerprint;
+  update.point = vec3(0.0);
   update.state = state;
   return update;
 }
 
 void storeChain(GuidePtr guide, ChainState state, vec3 point, vec3 facing, inout Rng rng) {
   CellKey key = adaptiveKey(guide, point, facing, kGuideNormals, rng);
-  carryOut(guide, updateOf(kUpdateChain, key.window, key.fingerprint, state));
+  submit(guide, updateOf(kUpdateChain, key.window, key.fingerprint, state));
   if (kGuideStatic) {
     key = staticKey(guide, point, rng);
-    carryOut(guide, updateOf(kUpdateChain, key.window, key.fingerprint, state));
+    submit(guide, updateOf(kUpdateChain, key.window, key.fingerprint, state));
+  }
+}
+
+void storeFit(GuidePtr guide, GuideRecord record, float score, inout Rng rng) {
+  ChainState taken = kEmptyState;
+  taken.target = record.target;
+  taken.weight = score;
+  taken.spread = record.scatterPart;
+  taken.evidence = rngFloat(rng);
+  setChainMotion(taken, record.velocity, 1u);
+  CellKey key = adaptiveKey(guide, record.point, record.normal, kGuideNormals, rng);
+  GuideUpdate update = updateOf(kUpdateFit, key.window, key.fingerprint, taken);
+  update.point = record.point;
+  submit(guide, update);
+  if (kGuideStatic) {
+    key = staticKey(guide, record.point, rng);
+    update.place = key.window;
+    update.fingerprint = key.fingerprint;
+    submit(guide, update);
   }
 }
 
@@ -38,10 +60,22 @@ void forget(GuidePtr guide, GuideRecord record, float score) {
   if (!trusted || score > guide.at[0].forgetBelow * record.state.weight) {
     return;
   }
-  ChainState state = record.state;
-  state.weight = mix(state.weight, score, guide.at[0].forgetRate);
   ++learnForgotten;
-  carryOut(guide, updateOf(kUpdateState, record.source, floatBitsToUint(record.state.weight), state));
+  ChainState miss = kEmptyState;
+  miss.weight = score;
+  submit(guide, updateOf(kUpdateMiss, record.source, floatBitsToUint(record.state.weight), miss));
+}
+
+// What the lobe of a state drew.
+void storeSample(GuidePtr guide, GuideRecord record, float score, bool accepted) {
+  ChainState drawn = kEmptyState;
+  drawn.target = record.target;
+  drawn.weight = score;
+  drawn.evidence = accepted ? 1.0 : 0.0;
+  setChainMotion(drawn, record.velocity, 1u);
+  GuideUpdate update = updateOf(kUpdateSample, record.source, floatBitsToUint(record.state.weight), drawn);
+  update.point = record.point;
+  submit(guide, update);
 }
 
 // One vertex learns from `value`, what its direction has found times scattering over the density.
@@ -51,25 +85,32 @@ void learn(GuidePtr guide, GuideRecord record, vec3 value, inout Rng rng) {
     ++learnUnsound;
     return;
   }
+  if (kGuideFit) {
+    if (score > kLeastChainWeight) {
+      ++learnAccepted;
+      storeFit(guide, record, score, rng);
+    }
+    return;
+  }
   if (kGuideShare && record.cell != kNoCell && score > 0.0) {
     ChainState gains = kEmptyState;
     gains.weight = score * sqrt(record.scatterPart);
     gains.spread = score * safeSqrt(1.0 - record.scatterPart);
-    carryOut(guide, updateOf(kUpdateShare, record.cell, 0u, gains));
+    submit(guide, updateOf(kUpdateShare, record.cell, 0u, gains));
   }
   const bool accepted = score > kLeastChainWeight && rngFloat(rng) * record.meanWeight < score;
   const bool guided = record.source != kNoState;
-  ChainState state = record.state;
-  if (accepted || kGuideWeight == kWeightMean && guided) {
-    chainAdd(guide, state, record.point, record.target, record.velocity, score, accepted);
-  }
   if (kGuideWeight == kWeightMean && guided) {
-    carryOut(guide, updateOf(kUpdateState, record.source, floatBitsToUint(record.state.weight), state));
+    storeSample(guide, record, score, accepted);
   }
-  if (accepted && chainIsSound(state)) {
-    ++learnAccepted;
-    storeChain(guide, state, record.point, record.normal, rng);
-  } else if (kGuideWeight == kWeightForgets && guided && !accepted) {
+  if (accepted) {
+    ChainState state = record.state;
+    chainAdd(guide, state, record.point, record.target, record.velocity, score, true);
+    if (chainIsSound(state)) {
+      ++learnAccepted;
+      storeChain(guide, state, record.point, record.normal, rng);
+    }
+  } else if (kGuideWeight == kWeightForgets && guided) {
     forget(guide, record, score);
   }
 }
@@ -89,7 +130,7 @@ void cacheRadiance(GuidePtr guide, GuideRecord record, vec3 value, inout Rng rng
   const CellKey key = radianceKey(guide, record.point, record.normal, rng);
   ChainState outgoing = kEmptyState;
   outgoing.target = value;
-  carryOut(guide, updateOf(kUpdateRadiance, key.window, key.fingerprint, outgoing));
+  submit(guide, updateOf(kUpdateRadiance, key.window, key.fingerprint, outgoing));
 }
 
 #endif

@@ -14,9 +14,9 @@ struct Mixture {
   float weightSum;
   float scatterShare;  // probability of scattering's own directions; 1 without lobes
   Lobe chosen;         // in proportion to the weights
-  ChainState state;    // of the chosen lobe
-  uint source;         // its place in the store
-  uint cell;           // one of those that were found, or kNoCell
+  uint places[kMostLobes]; // of the lobes' states in the store; not where states are fitted
+  uint source;         // of the chosen lobe's
+  uint cell;           // one of those that were found, or kNoCell; in screen space: the pixel's chain
 };
 
 // Of the vertex at hand. Private memory: an array handed to functions would be copied at every call.
@@ -27,7 +27,43 @@ uint mixtureVertices = 0u;
 uint mixtureStates = 0u;
 uint mixtureGuided = 0u;
 
-void loadLobe(GuidePtr guide, uint place, bool found, uint i, vec3 point, vec3 normal, inout Rng rng) {
+void clearMixture() {
+  mixture.weightSum = 0.0;
+  mixture.scatterShare = 1.0;
+  mixture.chosen = kNoLobe;
+  mixture.source = kNoState;
+  mixture.cell = kNoCell;
+}
+
+// Whether there are lobes to be drawn from.
+bool mixtureHolds() { return mixture.weightSum > 0.0 && isFinite(mixture.weightSum); }
+
+// Takes a lobe in as the i-th; `place`: of its state. `horizon`: see loadMixture.
+void addLobe(uint i, Lobe lobe, uint place, vec3 horizon) {
+  if (!(lobe.peak > 0.0) || !isFinite(lobe.peak) || (horizon != vec3(0.0) && dot(horizon, lobe.mu) <= 0.0)) {
+    return;
+  }
+  mixture.lobes[i] = lobe;
+  mixture.weightSum += lobe.weight;
+  ++mixtureStates;
+  if (!kGuideFit) {
+    mixture.places[i] = place;
+  }
+}
+
+// Chooses one of the lobes, once all are there.
+void chooseLobe(inout Rng rng) {
+  float left = rngFloat(rng) * mixture.weightSum;
+  [[unroll]] for (uint i = 0u; i < kLobes; ++i) {
+    if (left >= 0.0 && mixture.lobes[i].weight > 0.0) { // rounding must not lead past the last one
+      mixture.chosen = mixture.lobes[i];
+      mixture.source = kGuideFit ? kNoState : mixture.places[i];
+    }
+    left -= mixture.lobes[i].weight;
+  }
+}
+
+void loadLobe(GuidePtr guide, uint place, bool found, uint i, vec3 point, vec3 horizon) {
   mixture.lobes[i] = kNoLobe;
   if (!found) {
     return;
@@ -39,18 +75,7 @@ void loadLobe(GuidePtr guide, uint place, bool found, uint i, vec3 point, vec3 n
   if (kGuideMotion) {
     moveTarget(guide, state);
   }
-  const Lobe lobe = chainLobe(guide, state, point);
-  if (!(lobe.peak > 0.0) || !isFinite(lobe.peak) || (normal != vec3(0.0) && dot(normal, lobe.mu) <= 0.0)) {
-    return;
-  }
-  mixture.lobes[i] = lobe;
-  mixture.weightSum += lobe.weight;
-  ++mixtureStates;
-  if (rngFloat(rng) * mixture.weightSum < lobe.weight) {
-    mixture.chosen = lobe;
-    mixture.state = state;
-    mixture.source = place;
-  }
+  addLobe(i, chainLobe(guide, state, point), place, horizon);
 }
 
 // Share of scattering's own directions: in proportion to the squared scores they account for, which the variance is made
@@ -61,21 +86,31 @@ float learntShare(GuidePtr guide, vec2 gains, uint samples) {
                                                       : clamp(gains.x / sum, guide.at[0].leastShare, guide.at[0].mostShare);
 }
 
+uint drawnCell(GuidePtr guide, vec3 point, vec3 facing, inout Rng rng) {
+  const bool coarse = kGuideStatic && rngFloat(rng) >= guide.at[0].adaptiveShare;
+  const CellKey key = coarse ? staticKey(guide, point, rng) : adaptiveKey(guide, point, facing, kGuideNormals, rng);
+  return findCell(guide.at[0].cells, key, guide.at[0].window);
+}
+
+// The fine cell if it has learnt enough, else the coarse one.
+uint fittedCell(GuidePtr guide, vec3 point, vec3 facing, inout Rng rng) {
+  const CellKey fine = adaptiveKey(guide, point, facing, kGuideNormals, rng);
+  uint cell = findCell(guide.at[0].cells, fine, guide.at[0].window);
+  if (kGuideStatic && (cell == kNoCell || guide.at[0].cells.at[cell].samples < guide.at[0].fitSamples)) {
+    cell = findCell(guide.at[0].cells, staticKey(guide, point, rng), guide.at[0].window);
+  }
+  return cell;
+}
+
 // Loads the states of the vertex at `point` of the store's space. `horizon`: the normal that lobes must lie above, 0: any
 // direction counts. `facing`: what stands for a normal in keys.
 void loadMixture(GuidePtr guide, vec3 point, vec3 horizon, vec3 facing, inout Rng rng) {
-  mixture.weightSum = 0.0;
-  mixture.chosen = kNoLobe;
-  mixture.state = kEmptyState;
-  mixture.source = kNoState;
-  mixture.cell = kNoCell;
+  clearMixture();
   vec2 gains = vec2(0.0);
   uint samples = 0u;
   uint found = 0u;
   [[unroll]] for (uint load = 0u; load < kGuideLoads; ++load) {
-    const bool coarse = kGuideStatic && rngFloat(rng) >= guide.at[0].adaptiveShare;
-    const CellKey key = coarse ? staticKey(guide, point, rng) : adaptiveKey(guide, point, facing, kGuideNormals, rng);
-    const uint cell = findCell(guide.at[0].cells, key, guide.at[0].window);
+    const uint cell = kGuideFit ? fittedCell(guide, point, facing, rng) : drawnCell(guide, point, facing, rng);
     if (kGuideShare && cell != kNoCell) {
       const vec2 own = vec2(guide.at[0].cells.at[cell].scatterGain, guide.at[0].cells.at[cell].guideGain);
       const vec2 squared = own * own;
@@ -91,12 +126,14 @@ void loadMixture(GuidePtr guide, vec3 point, vec3 horizon, vec3 facing, inout Rn
       mixture.cell = cell;
     }
     [[unroll]] for (uint i = 0u; i < kGuideStates; ++i) {
-      loadLobe(guide, cell * kGuideStates + i, cell != kNoCell, load * kGuideStates + i, point, horizon, rng);
+      loadLobe(guide, cell * kGuideStates + i, cell != kNoCell, load * kGuideStates + i, point, horizon);
     }
   }
   ++mixtureVertices;
-  const bool any = mixture.weightSum > 0.0 && isFinite(mixture.weightSum);
-  mixture.scatterShare = !any ? 1.0 : kGuideShare ? learntShare(guide, gains, samples) : guide.at[0].scatterShare;
+  if (mixtureHolds()) {
+    chooseLobe(rng);
+    mixture.scatterShare = kGuideShare ? learntShare(guide, gains, samples) : guide.at[0].scatterShare;
+  }
 }
 
 // Density of the lobes together [1/sr].

@@ -1,24 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes to the store. Threads write without locks: the last one wins, and what is torn is still a lobe (chainIsSound), so
-// that only the variance knows.
+// that only the variance knows. With kGuideOrdered one thread writes to a window, in an order that is always the same.
 #ifndef TYNDALL_GUIDE_STORE_GLSL
 #define TYNDALL_GUIDE_STORE_GLSL
 
 #include "guide/chain.glsl"
+#include "guide/fit.glsl"
 #include "guide/hash_grid.glsl"
-
-const uint kUpdateChain = 0u;     // a state for a vertex
-const uint kUpdateState = 1u;     // what a state becomes, if it still has the old weight
-const uint kUpdateShare = 2u;     // gains of a cell
-const uint kUpdateRadiance = 3u;  // a sample of the cache
-
-// A write to the store, as a value.
-struct GuideUpdate {
-  uint kind;           // kUpdate*
-  uint place;          // first cell of the window; State: the state; Share: the cell
-  uint fingerprint;    // State: bits of the old weight
-  ChainState state;    // Share: weight, spread = gains; Radiance: target = sample
-};
 
 uint storeEvicted = 0u;
 
@@ -67,9 +55,27 @@ void writeChain(GuidePtr guide, GuideUpdate update) {
   guide.at[0].states.at[leastState(guide, cell)] = update.state;
 }
 
-void writeState(GuidePtr guide, GuideUpdate update) {
-  if (floatBitsToUint(guide.at[0].states.at[update.place].weight) == update.fingerprint) {
-    guide.at[0].states.at[update.place] = update.state;
+// Whether the state is still the one that drew. In order it is: samples are carried out before states are replaced.
+bool stillDraws(ChainState state, GuideUpdate update) {
+  return kGuideOrdered || floatBitsToUint(state.weight) == update.fingerprint;
+}
+
+void writeSample(GuidePtr guide, GuideUpdate update) {
+  ChainState state = guide.at[0].states.at[update.place];
+  if (stillDraws(state, update)) {
+    if (kGuideMotion) {
+      moveTarget(guide, state);
+    }
+    chainAdd(guide, state, update.point, update.state.target, chainVelocity(update.state), update.state.weight,
+             update.state.evidence > 0.0);
+    guide.at[0].states.at[update.place] = state;
+  }
+}
+
+void writeMiss(GuidePtr guide, GuideUpdate update) {
+  const ChainState state = guide.at[0].states.at[update.place];
+  if (stillDraws(state, update)) {
+    guide.at[0].states.at[update.place].weight = mix(state.weight, update.state.weight, guide.at[0].forgetRate);
   }
 }
 
@@ -79,12 +85,16 @@ float rootSum(float root, float term, float keep) {
 }
 
 // Old samples fade: the share follows what the chains have become.
-void writeShare(GuidePtr guide, GuideUpdate update) {
+void addShare(GuidePtr guide, uint cell, vec2 gains) {
   GuideCellPtr cells = guide.at[0].cells;
   const float keep = 1.0 - 1.0 / 256.0;
-  cells.at[update.place].scatterGain = rootSum(cells.at[update.place].scatterGain, update.state.weight, keep);
-  cells.at[update.place].guideGain = rootSum(cells.at[update.place].guideGain, update.state.spread, keep);
-  cells.at[update.place].samples = min(cells.at[update.place].samples + 1u, 1u << 20);
+  cells.at[cell].scatterGain = rootSum(cells.at[cell].scatterGain, gains.x, keep);
+  cells.at[cell].guideGain = rootSum(cells.at[cell].guideGain, gains.y, keep);
+  cells.at[cell].samples = min(cells.at[cell].samples + 1u, 1u << 20);
+}
+
+void writeShare(GuidePtr guide, GuideUpdate update) {
+  addShare(guide, update.place, vec2(update.state.weight, update.state.spread));
 }
 
 // A mean over at most 128 samples. A sample far above it counts for less: the cache steers chains, and one of them must
@@ -120,13 +130,28 @@ void writeRadiance(GuidePtr guide, GuideUpdate update) {
   }
 }
 
+void writeFit(GuidePtr guide, GuideUpdate update) {
+  if (!(update.state.weight >= 0.0 && update.state.weight <= kMostChainWeight)) {
+    return; // states of such weights would be unsound
+  }
+  const uint cell = claimCell(guide, update.place, update.fingerprint);
+  const ChainState taken = update.state;
+  addShare(guide, cell, vec2(taken.weight * sqrt(taken.spread), taken.weight * safeSqrt(1.0 - taken.spread)));
+  fitCell(guide, cell, guide.at[0].cells.at[cell].samples,
+          FitSample(update.point, taken.target, chainVelocity(taken), taken.weight), taken.evidence);
+}
+
 void carryOut(GuidePtr guide, GuideUpdate update) {
   if (update.kind == kUpdateChain) {
     writeChain(guide, update);
-  } else if (update.kind == kUpdateState) {
-    writeState(guide, update);
+  } else if (update.kind == kUpdateSample) {
+    writeSample(guide, update);
+  } else if (update.kind == kUpdateMiss) {
+    writeMiss(guide, update);
   } else if (update.kind == kUpdateShare) {
     writeShare(guide, update);
+  } else if (kGuideFit && update.kind == kUpdateFit) {
+    writeFit(guide, update);
   } else if (kGuideCache) {
     writeRadiance(guide, update);
   }

@@ -6,9 +6,11 @@
 
 #include "core/frame.glsl"
 
-// Density at mu itself [1/sr].
+// Density at mu itself [1/sr]: x / (1 - exp(-x)) over 4 pi, x = 2 kappa, by its series where the difference cancels.
 float vmfPeak(float kappa) {
-  return kInvFourPi * (kappa > 1e-30 ? 2.0 * kappa / oneMinusExp(2.0 * kappa) : 1.0);
+  const float x = 2.0 * kappa;
+  const float series = 1.0 + x * (0.5 + x * (1.0 / 12.0 - x * x * (1.0 / 720.0)));
+  return kInvFourPi * (x < 0.25 ? series : x / (1.0 - exp(-x)));
 }
 
 // Density of the unit direction w [1/sr]. 1 - mu.w comes from the difference of the vectors: the dot product has lost a

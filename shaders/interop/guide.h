@@ -22,9 +22,11 @@ GPU_CONST float kLeastChainWeight = 1e-30f; // below it a state is empty
 // A Markov chain: a lobe that aims at a place where light comes from. All zero: empty.
 struct ChainState {
   vec3 target;         // mean of the places that were hit, weighted by their scores
-  float weight;        // mean score: of accepted samples, or of all that its lobe drew; 0: empty
+  float weight;        // mean score: of accepted samples, or of all that its lobe drew; in a fitted cell its part of the
+                       // cell's mean score; 0: empty
   float spread;        // mean of 1 - cos about the mean direction, weighted likewise, [0, 2]
-  float evidence;      // number of accepted samples: what target and spread rest on
+  float evidence;      // number of accepted samples, or sum of its parts in those of the cell: what target and spread
+                       // rest on
   float time;          // of the last update [s]
   uint velocityXY;     // of the target, two halves [units/s]
   uint velocityZCount; // low half: z; high half: number of samples
@@ -37,7 +39,7 @@ struct GuideCell {
   uint stamp;          // round of the last write
   float scatterGain;   // root of the sum of squared scores that scattering's own directions account for
   float guideGain;     // ... and that the lobes do
-  uint samples;        // that the gains are made of
+  uint samples;        // that the gains, and fitted states, are made of
 };
 GPU_BUFFER(GuideCell)
 
@@ -49,6 +51,16 @@ struct RadianceCell {
   vec3 radiance;       // mean; surfaces: all of it, media: before the albedo [W/(m2 sr)]
 };
 GPU_BUFFER(RadianceCell)
+
+// What a pixel of the picture keeps of the vertex that it sees first: chains in screen space. All zero: nothing.
+struct ScreenChain {
+  ChainState state;
+  vec3 point;          // of the vertex
+  vec3 normal;         // ... on the camera's side, unit
+  float score;         // of the sample that made the state what it is; 0: the state is not read
+  uint round;          // of that sample
+};
+GPU_BUFFER(ScreenChain)
 
 // How cells' widths grow with the distance from the camera.
 struct GuideLevels {
@@ -73,18 +85,40 @@ struct GuideRecord {
   float meanWeight;    // of the loaded states, empty ones counted
   float mu[3];         // of the chosen lobe
   float kappa;
-  uint cell;           // whose share is learnt, or kNoCell
+  uint cell;           // whose share is learnt, or kNoCell; in screen space: the pixel's chain
   uint source;         // the state that drew the direction, or kNoState
   ChainState state;    // its copy; empty if scattering drew the direction
 };
 GPU_BUFFER(GuideRecord)
+
+// Writes to the store, in the order in which a log carries them out: what a state's lobe drew comes before the state is
+// replaced.
+GPU_CONST uint kUpdateSample = 0;   // a sample that a state's lobe drew
+GPU_CONST uint kUpdateMiss = 1;     // ... that takes weight away
+GPU_CONST uint kUpdateShare = 2;    // gains of a cell
+GPU_CONST uint kUpdateChain = 3;    // a state for a vertex
+GPU_CONST uint kUpdateRadiance = 4; // a sample of the cache
+GPU_CONST uint kUpdateFit = 5;      // a sample for a cell whose states are fitted together
+GPU_CONST uint kUpdateKinds = 6;
+
+// One of them as a value. It touches cells of one window only.
+struct GuideUpdate {
+  uint kind;           // kUpdate*
+  uint place;          // Sample, Miss: the state; Share: the cell; Chain, Radiance, Fit: first cell of the window
+  uint fingerprint;    // Chain, Radiance, Fit: of the vertex; Sample, Miss: bits of the weight that drew
+  vec3 point;          // Sample, Fit: where the direction was drawn
+  ChainState state;    // Sample: its target and velocity, weight = score, evidence = 1 if accepted; Miss: weight = score;
+                       // Share: weight, spread = gains; Radiance: target = sample; Fit: as Sample, spread =
+                       // scattering's part of the density, evidence = a random number
+};
+GPU_BUFFER(GuideUpdate)
 
 // What guiding did, added up over a dispatch.
 struct GuideCounters {
   uint vertices;       // that loaded states
   uint states;         // loaded that were not empty
   uint guided;         // directions that lobes drew
-  uint accepted;       // samples that became states
+  uint accepted;       // samples that became states, or that fitted cells took in
   uint forgotten;      // states that lost weight
   uint evicted;        // cells that another vertex took over
   uint unsound;        // scores that were not finite
@@ -96,12 +130,20 @@ struct Guide {
   GPU_PTR(GuideCell) cells;
   GPU_PTR(ChainState) states;
   GPU_PTR(RadianceCell) radiance;
+  GPU_PTR(ScreenChain) screen;    // kGuideScreen: row by row, from the top
   GPU_PTR(GuideRecord) records;   // mostRecords for each pixel of a dispatch
   GPU_PTR(GuideCounters) counters;
+  GPU_PTR(GuideUpdate) log;       // of writes to the store, which the pass guide_apply carries out
+  GPU_PTR(uint) logCounts;        // kGuideOrdered: of those of each pixel; else of all together, more than fit counted
   vec3 camera;         // where cells are finest
   vec3 shift;          // from centred world space to the store's
   GuideLevels levels;
   GuideLevels radianceLevels;
+  mat4x3 rasterBefore; // from the store's space: where the frame before saw a point, x and y of the picture in [0, 1]
+                       // times z, which is positive before the camera
+  uvec2 screenSize;    // of the picture [pixels]
+  float screenDepth;   // difference in distance from the camera at which a state counts for 1/e
+  uint frameRound;     // the frame's first; states of earlier ones lie where the frame before saw their vertex
   float staticWidth;
   float adaptiveShare; // of the loads, where there is a static grid
   uint cellCount;      // adaptive cells come first, a multiple of `window`
@@ -117,6 +159,8 @@ struct Guide {
   float mostShare;
   uint shareSamples;   // before it counts
   float leastRate;     // of a chain's means
+  float newbornShare;  // of a fitted cell's weight that stands for what no state explains
+  uint fitSamples;     // of a fitted cell before it is read
   float forgetBelow;   // a miss is a score below this part of the state's weight
   float forgetRate;    // of the weight that a miss takes away, (0, 1]
   float radianceLimit; // a sample of the cache counts for at most this many times the mean
@@ -126,6 +170,7 @@ struct Guide {
   float farDistance;   // where targets at infinity stand
   uint round;          // of learning, counted on
   uint mostRecords;    // vertices of a path that learn
+  uint logSize;        // places in the log; kGuideOrdered: of each pixel
 };
 GPU_BUFFER(Guide)
 

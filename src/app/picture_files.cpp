@@ -51,8 +51,10 @@ PictureSettings settingsOf(const film::Metadata& metadata) {
   return settings;
 }
 
-PictureFiles writePicture(const std::filesystem::path& exr, const film::Film& film, const PictureSettings& settings) {
-  const film::Image image = film::makeImage(film, {settings.transparent, settings.opaqueBackground, settings.aovs});
+PictureFiles writePicture(const std::filesystem::path& exr, const film::Film& film, const PictureSettings& settings,
+                          const std::map<std::string, std::vector<float>>& layers) {
+  film::Image image = film::makeImage(film, {settings.transparent, settings.opaqueBackground, settings.aovs});
+  image.channels.insert(layers.begin(), layers.end());
   PictureFiles files{.exr = exr, .png = std::filesystem::path(exr).replace_extension(".png"), .report = {}};
   film::writeExr(files.exr, image);
   files.report = film::writePng(files.png, image, settings.png);

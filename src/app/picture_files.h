@@ -29,7 +29,8 @@ struct PictureFiles {
   film::PngReport report;
 };
 
-/// @throws Error if a file cannot be written.
-PictureFiles writePicture(const std::filesystem::path& exr, const film::Film& film, const PictureSettings& settings);
+/// @param layers channels that the film knows nothing of. @throws Error if a file cannot be written.
+PictureFiles writePicture(const std::filesystem::path& exr, const film::Film& film, const PictureSettings& settings,
+                          const std::map<std::string, std::vector<float>>& layers = {});
 
 } // namespace tyndall::app

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <utility>
 
 namespace tyndall::app {
 namespace fs = std::filesystem;
@@ -157,6 +158,10 @@ private:
   /// The chains of the frames before go on, where there are any.
   std::optional<render::GuidePlan> guidePlan(const Prepared& prepared, const std::optional<int>& frame) {
     if (prepared.scene.render.integrator == scene::Integrator::Path) {
+      if (request_.guideViews) {
+        fail("--guide-views: shows what guides the paths, and none are guided; give --integrator mcpg with it, or leave "
+             "it away");
+      }
       return std::nullopt;
     }
     if (request_.error) {
@@ -171,9 +176,12 @@ private:
     if (!guide_ || !(guide_->store->size() == size)) {
       guide_ = render::GuidePlan{settings, std::make_shared<guide::Store>(device_, size), prepared.gpuScene->centre()};
       guide_->settings.unit = render::guideUnit(settings, *prepared.gpuScene);
+      guideCamera_.reset();
     }
+    guide_->before = std::exchange(guideCamera_, prepared.scene.camera);
     settings.unit = guide_->settings.unit; // cells stay what they are where bounds move
     guide_->settings = settings;
+    guide_->deterministic = prepared.scene.render.deterministic;
     guide_->frameTime = 1.0 / prepared.scene.animation.framesPerSecond;
     guide_->time = double(frame.value_or(0)) * guide_->frameTime;
     return guide_;
@@ -200,10 +208,11 @@ private:
     }
     tellAboutEstimator(prepared);
     if (prepared.guide) {
-      say()(fmt::format("guided by {}: one unit of its lengths is {:.4g} scene units, chains take {}",
+      say()(fmt::format("guided by {}: one unit of its lengths is {:.4g} scene units, chains take {}{}",
                         scene::integratorName(prepared.scene.render.integrator),
                         render::guideUnit(prepared.guide->settings, *prepared.gpuScene),
-                        inBytes(prepared.guide->store->bytes())));
+                        inBytes(prepared.guide->store->bytes()),
+                        prepared.guide->deterministic ? "; deterministic, so it goes on whether it pays or not" : ""));
     }
     say()(fmt::format("device memory: {} of {} allowed, on {}", inBytes(double(device_.allocatedBytes())),
                       inBytes(allowedBytes(request_, device_)), device_.info().name));
@@ -266,6 +275,7 @@ private:
   Timings timings_;
   Source source_;
   std::optional<render::GuidePlan> guide_; ///< of the last frame
+  std::optional<scene::Camera> guideCamera_; ///< likewise
   std::unique_ptr<Prepared> prepared_;     ///< what the exposure was chosen from
   std::optional<int> preparedFrame_;
   gpu_scene::Pose pose_; ///< of the frame that was prepared last

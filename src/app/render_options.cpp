@@ -58,6 +58,8 @@ void addFilm(CLI::App& command, RenderRequest& request) {
   command.add_option("--aov", request.aovs, "layers to add to the EXR: " + joinNames(film::aovNames()))
       ->delimiter(',')
       ->type_name("a,b");
+  command.add_flag("--guide-views", request.guideViews,
+                   "for debugging: layers guide.* in the EXR, what has been learnt of each pixel's first vertex");
   command.add_flag("--transparent", request.transparent, "leave the background out of R, G, B (it gets its own layer)");
   text(
       command, "--exposure",
@@ -108,13 +110,13 @@ void addWork(CLI::App& command, RenderRequest& request) {
   text(
       command, "--integrator",
       [&request](const std::string& value) {
-        if (value != "path" && value != "mcpg" && value != "mcpg-paper") {
-          fail("--integrator {}: there are path (the default), mcpg and mcpg-paper", value);
+        if (value != "path" && value != "mcpg" && value != "mcpg-paper" && value != "screen-chains") {
+          fail("--integrator {}: there are path (the default), mcpg, mcpg-paper and screen-chains", value);
         }
         request.overrides.push_back({"render.integrator", value});
       },
       "how directions of paths are drawn: path (scattering and lights), mcpg (guided by Markov chains), mcpg-paper (as "
-      "published)",
+      "published), screen-chains (the method before it: direct light at the first surface)",
       "NAME");
   text(
       command, "--light-sampling",
@@ -125,6 +127,13 @@ void addWork(CLI::App& command, RenderRequest& request) {
         request.overrides.push_back({"render.light_sampling", value == "on" ? "true" : "false"});
       },
       "off: lights that have a size are found by directions alone", "on|off");
+  command.add_flag_callback(
+      "--deterministic",
+      [&request] {
+        request.overrides.push_back({"render.deterministic", "true"});
+      },
+      "the same bits from every run, of guided pictures too (but screen-chains), whatever the threads; slower, see "
+      "docs/guiding.md");
   text(
       command, "--rays",
       [&request](const std::string& value) {

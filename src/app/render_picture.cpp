@@ -7,6 +7,7 @@
 #include "app/render_text.h"
 #include "film/checkpoint.h"
 #include "film/merge.h"
+#include "render/guide_views.h"
 
 #include <spdlog/spdlog.h>
 
@@ -14,7 +15,6 @@
 #include <cmath>
 
 namespace tyndall::app {
-namespace fs = std::filesystem;
 namespace {
 
 /// Where only a time or an error ends a render.
@@ -64,8 +64,7 @@ film::Film renderWithProgress(const PictureContext& context, const Prepared& pre
 /// Removes the checkpoint of a picture that is done, unless it is to be extended.
 void settleCheckpoint(const PictureContext& context, const OutputFiles& files, bool complete) {
   if (!context.request.resume && complete) {
-    std::error_code ignored;
-    fs::remove(files.checkpoint, ignored);
+    film::removeCheckpoint(files.checkpoint);
   }
 }
 
@@ -82,7 +81,11 @@ void writeFiles(const PictureContext& context, const Prepared& prepared, const O
                                 .aovs = context.request.aovs,
                                 .png = {settings.exposure, filmView(settings.view)}};
   noteSettings(picture, film.metadata);
-  record.png = writePicture(files.exr, film, picture).report;
+  std::map<std::string, std::vector<float>> layers;
+  if (context.request.guideViews) {
+    layers = render::guideViews(*prepared.estimator, film);
+  }
+  record.png = writePicture(files.exr, film, picture, layers).report;
   if (!files.part.empty()) {
     film::saveCheckpoint(files.part, film);
   }
@@ -167,6 +170,7 @@ double plannedBytes(const PictureContext& context, const Prepared& prepared) {
 } // namespace
 
 render::EstimatorOptions estimatorOptions(const RenderRequest& request, const Prepared& prepared) {
+  const bool deterministic = prepared.scene.render.deterministic; // then the time they take decides nothing
   return {.method = prepared.choice.method,
           .aovs = request.deviceAovs(),
           .deltaTracking = request.deltaTracking.value_or(false),
@@ -174,7 +178,7 @@ render::EstimatorOptions estimatorOptions(const RenderRequest& request, const Pr
           .cacheBytes = prepared.choice.cacheBytes,
           .techniques = prepared.scene.render.lightSampling ? interop::kTechniqueLight | interop::kTechniqueDirection
                                                             : interop::kTechniqueDirection,
-          .rays = request.rays,
+          .rays = deterministic && request.rays == render::RayCaster::Auto ? render::RayCaster::Tree : request.rays,
           .guide = prepared.guide};
 }
 

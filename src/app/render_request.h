@@ -27,6 +27,7 @@ struct RenderRequest {
   std::optional<std::uint32_t> depth; ///< scattering events, 0 = unlimited
   std::vector<scene::Override> overrides;
   std::vector<std::string> aovs;
+  bool guideViews = false; ///< layers of what guides the paths
   bool transparent = false;
   std::optional<double> exposure; ///< stops
   bool chooseExposure = false;    ///< --exposure auto

@@ -219,6 +219,7 @@ std::string sceneHash(const scene::Scene& scene, const gpu_scene::VolumeSet& vol
   core.film.view = scene::View::Standard;
   core.render.samples = 1;
   core.render.seed = 0;
+  core.render.deterministic = scene.render.deterministic && scene.render.integrator != scene::Integrator::Path;
   for (scene::Medium& medium : core.media) {
     medium.file = medium.homogeneous() ? "" : contentsOf(medium.file);
   }

@@ -106,11 +106,11 @@ std::map<std::string, BarChart> chartsOf(const std::vector<GuidingRow>& rows, co
                                             : fmt::format("guiding-lights-{}", lights)];
     chart.title =
         fmt::format("{}, light sampling {}", options.ablate ? "Settings changed alone" : "Guided paths", lights);
-    chart.axis = fmt::format("gain in variance x time over {} (above 1: better)", reference);
+    chart.axis = fmt::format("gain in relMSE x time over {} (above 1: better)", reference);
     chart.note = fmt::format("{} samples per pixel; 95 % intervals of {} seeds; without the worst {:.1f} % of pixels",
                              options.samples, options.seeds, 100.0 * kTrimmedShare);
     const std::size_t colour = options.ablate ? 0 : colours.try_emplace(row.name, colours.size()).first->second;
-    const Gain& gain = row.trimmed.gains.time;
+    const Gain& gain = row.relative.gains.time;
     chart.bars.push_back({row.scene, row.name, gain.value, gain.range, colour});
   }
   return charts;

@@ -17,7 +17,7 @@ namespace tyndall::bench {
 struct GuidingOptions {
   std::filesystem::path folder = "scenes/guiding";
   std::vector<std::string> scenes; ///< names of its files; empty: all, or those of the ablation
-  std::vector<std::string> integrators{"path", "mcpg-paper", "mcpg"};
+  std::vector<std::string> integrators{"path", "screen-chains", "mcpg-paper", "mcpg"};
   std::vector<bool> lightSampling{false, true};
   glm::uvec2 size{128, 128};
   std::uint32_t samples = 64; ///< per pixel

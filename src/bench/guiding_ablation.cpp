@@ -4,17 +4,20 @@
 namespace tyndall::bench {
 namespace {
 
-// Left out: what changes nothing where nothing is forgotten, nothing moves and no radiance is cached; and the unit,
-// which is a factor of all lengths.
+// Left out: what changes nothing where cells are fitted, nothing moves and no radiance is cached; and the unit, which is
+// a factor of all lengths.
 constexpr Variation kVariations[] = {
     {"guide.score", "cache"},
-    {"guide.loads", "1"},
-    {"guide.loads", "4"},
+    {"guide.loads", "2"},
     {"guide.states", "1"},
-    {"guide.states", "8"},
+    {"guide.states", "4"},
+    {"guide.states", "16"},
+    {"guide.fit", "false"},
+    {"guide.newborn_share", "0.02"},
+    {"guide.newborn_share", "0.3"},
+    {"guide.fit_samples", "4"},
+    {"guide.fit_samples", "64"},
     {"guide.static_grid", "false"},
-    {"guide.adaptive_share", "0.4"},
-    {"guide.adaptive_share", "0.9"},
     {"guide.static_width", "50"},
     {"guide.static_width", "200"},
     {"guide.normals", "true"},
@@ -40,8 +43,8 @@ constexpr Variation kVariations[] = {
     {"guide.share_samples", "32"},
     {"guide.least_rate", "0.1"},
     {"guide.least_rate", "0.001"},
-    {"guide.weight", "accepted"},
-    {"guide.weight", "forgets"},
+    {"guide.round_samples", "1"},
+    {"guide.round_samples", "16"},
     {"guide.records", "2"},
     {"guide.records", "16"},
     {"guide.window", "1"},
@@ -49,6 +52,7 @@ constexpr Variation kVariations[] = {
     {"guide.slots", "4096"},
     {"guide.watch", "false"},
     {"guide.learn", "false"}, // of an empty store: what guiding costs where it guides nothing
+    {"render.deterministic", "true"},
 };
 
 } // namespace

@@ -61,7 +61,7 @@ void addWhat(CLI::App& command, GuidingOptions& options) {
           "--integrators", [&options](const auto& names) { options.integrators = pathFirst(names); },
           "Beside path, which the others are compared with")
       ->delimiter(',')
-      ->check(CLI::IsMember({"path", "mcpg-paper", "mcpg"}));
+      ->check(CLI::IsMember({"path", "screen-chains", "mcpg-paper", "mcpg"}));
   command
       .add_option_function<std::string>(
           "--light-sampling",

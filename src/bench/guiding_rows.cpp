@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kLine =
-    "{:<18}{:<7}{:<22}{:>8}{:>8}{:>10}  {:<26}{:<26}{:>10}  {:<26}{:<26}{:>19}{:>6}{:>8}{:>8}\n";
+    "{:<18}{:<7}{:<22}{:>8}{:>8}{:>10}  {:<26}{:<26}{:>10}  {:<26}{:<26}{:>10}  {:<26}{:<26}{:>19}{:>6}{:>8}{:>8}\n";
 
 std::vector<std::size_t> allPixels(const Race& race) {
   std::vector<std::size_t> pixels(race.runs.front().pictures.front().size());
@@ -29,6 +29,30 @@ std::vector<std::size_t> trimmedPixels(const Race& race) {
     variances.push_back(pixelVariances(run.pictures));
   }
   return withoutWorst(variances, kTrimmedShare);
+}
+
+/// The pictures over the root of r^2 + eps^2, of which variances are relMSEs: r is the mean of all that raced, eps 1 %
+/// of its mean.
+Race relativeTo(const Race& race) {
+  constexpr double kEpsilon = 0.01;
+  std::vector<double> mean(race.runs.front().pictures.front().size(), 0.0);
+  for (const RunFigures& run : race.runs) {
+    const std::vector<double> own = meanPicture(run.pictures);
+    for (std::size_t i = 0; i < mean.size(); ++i) {
+      mean[i] += own[i] / double(race.runs.size());
+    }
+  }
+  const double epsilon = kEpsilon * std::accumulate(mean.begin(), mean.end(), 0.0) / double(mean.size());
+  Race result = race;
+  for (RunFigures& run : result.runs) {
+    for (std::vector<double>& picture : run.pictures) {
+      for (std::size_t i = 0; i < picture.size(); ++i) {
+        const double scale = std::hypot(mean[i], epsilon);
+        picture[i] = scale > 0.0 ? picture[i] / scale : 0.0;
+      }
+    }
+  }
+  return result;
 }
 
 const std::vector<double>& secondsOf(const Race& race, const RunFigures& run) {
@@ -78,10 +102,13 @@ std::vector<GuidingRow> rowsOf(const Race& race) {
   TYNDALL_CHECK(!race.runs.empty());
   const std::vector<std::size_t> all = allPixels(race);
   const std::vector<std::size_t> trimmed = trimmedPixels(race);
+  const Race relative = relativeTo(race);
+  const std::vector<std::size_t> trimmedRelative = trimmedPixels(relative);
   const Mean reference = imageMean(race.runs.front().pictures);
   std::vector<GuidingRow> rows;
   for (const RunFigures& run : race.runs) {
     const bool first = rows.empty();
+    const RunFigures& relativeRun = relative.runs[rows.size()];
     const Mean mean = imageMean(run.pictures);
     rows.push_back({.scene = race.scene,
                     .lightSampling = race.lightSampling,
@@ -91,6 +118,7 @@ std::vector<GuidingRow> rowsOf(const Race& race) {
                     .z = first ? 0.0 : deviation(mean, reference),
                     .trimmed = noiseOf(race, run, trimmed),
                     .all = noiseOf(race, run, all),
+                    .relative = noiseOf(relative, relativeRun, trimmedRelative),
                     .cpu = median(run.cpu),
                     .wall = median(run.wall),
                     .guidedShare = run.guidedShare,
@@ -110,6 +138,7 @@ Json toJson(const GuidingRow& row) {
           {"z", toJson(row.z)},
           {"trimmed", toJson(row.trimmed)},
           {"untrimmed", toJson(row.all)},
+          {"relative", toJson(row.relative)},
           {"cpuSeconds", row.cpu},
           {"wallSeconds", row.wall},
           {"guidedShare", row.guidedShare},
@@ -119,7 +148,8 @@ Json toJson(const GuidingRow& row) {
 
 std::string tableHead() {
   return fmt::format(kLine, "scene", "lights", "directions", "CPU s", "wall s", "V trimmed", "gain, equal samples",
-                     "gain, V s", "V all", "gain, equal samples", "gain, V s", "mean (error)", "z", "guided", "MB");
+                     "gain, V s", "V all", "gain, equal samples", "gain, V s", "relMSE", "gain, equal samples",
+                     "gain, relMSE s", "mean (error)", "z", "guided", "MB");
 }
 
 std::string tableLine(const GuidingRow& row) {
@@ -127,6 +157,8 @@ std::string tableLine(const GuidingRow& row) {
                      shortText(row.wall), shortText(row.trimmed.variance), gainText(row, row.trimmed.gains.samples),
                      gainText(row, row.trimmed.gains.time), shortText(row.all.variance),
                      gainText(row, row.all.gains.samples), gainText(row, row.all.gains.time),
+                     shortText(row.relative.variance), gainText(row, row.relative.gains.samples),
+                     gainText(row, row.relative.gains.time),
                      fmt::format("{} ({})", shortText(row.mean.value), shortText(row.mean.error)),
                      row.reference || !std::isfinite(row.z) ? "-" : fmt::format("{:+.1f}", row.z),
                      fmt::format("{:.0f} %", 100.0 * row.guidedShare), shortText(row.bytes * 1e-6)) +

@@ -45,6 +45,7 @@ struct GuidingRow {
   double z = 0.0; ///< of the mean against the reference's, in standard errors of their difference
   Noise trimmed;  ///< worst pixels of the race left out
   Noise all;
+  Noise relative;   ///< as trimmed, of relMSE: dim places count as much as bright ones
   double cpu = 0.0; ///< seconds of a render, median
   double wall = 0.0;
   double guidedShare = 0.0;

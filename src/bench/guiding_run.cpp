@@ -73,13 +73,19 @@ GuidingRun::GuidingRun(std::string name, const gpu::Device& device, const Guidin
   render::EstimatorOptions options = estimatorOptions(settings_);
   if (settings_.render.integrator != scene::Integrator::Path) {
     makeStore();
-    options.guide =
-        render::GuidePlan{.settings = settings_.guide, .store = store_, .origin = scene.gpuScene().centre()};
+    options.guide = plan();
   }
   estimator_ = render::makeEstimator(device, scene.gpuScene(), scene.volumes(), options);
   std::vector<std::uint32_t> pixels = render::dispatchOrder({glm::uvec2(0), settings_.film.size});
   pixels.resize(std::min(pixels.size(), kWarmPixels));
   estimator_->run(pixels, {0, 1}, 0); // drivers compile at the first dispatch
+}
+
+render::GuidePlan GuidingRun::plan() const {
+  return {.settings = settings_.guide,
+          .store = store_,
+          .origin = scene_->gpuScene().centre(),
+          .deterministic = settings_.render.deterministic};
 }
 
 void GuidingRun::makeStore() {
@@ -116,7 +122,7 @@ void GuidingRun::render(std::uint32_t samples, std::uint32_t seed) {
 
 void GuidingRun::keep(const render::RenderReport& report) {
   figures_.guidedShare = vertices_ > 0 ? double(guided_) / double(vertices_) : 0.0;
-  figures_.bytes = report.guide->bytes + render::guidingBytes(settings_.guide, estimator_->chunkPixels());
+  figures_.bytes = report.guide->bytes + render::guidingBytes(plan(), estimator_->chunkPixels());
   figures_.unsound += report.guide->occupancy.unsound;
 }
 

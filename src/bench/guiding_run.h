@@ -43,6 +43,7 @@ public:
 
 private:
   void makeStore();
+  render::GuidePlan plan() const;
   void keep(const render::RenderReport& report);
 
   const gpu::Device* device_;

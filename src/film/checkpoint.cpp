@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "film/checkpoint.h"
 
+#include "base/file.h"
 #include "film/exr_io.h"
 
 #include <ImfChannelList.h>
@@ -9,11 +10,13 @@
 #include <ImfOutputFile.h>
 #include <ImfStdIO.h>
 
+#include <algorithm>
 #include <bit>
-#include <cstddef>
+#include <cctype>
 #include <cstring>
 
 namespace tyndall::film {
+namespace fs = std::filesystem;
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "the word order of the channels below");
@@ -23,6 +26,9 @@ const std::string kVersion = "1";
 const std::string kVersionKey = "checkpoint.version";
 const std::string kHashKey = "checkpoint.hash";
 const std::string kHalvesKey = "checkpoint.independentHalves";
+const std::string kCompanionKey = "checkpoint.companion";
+
+constexpr std::size_t kHashDigits = 16;
 
 /// One 32-bit word of a PixelState.
 struct Word {
@@ -54,16 +60,53 @@ const std::vector<Word>& pixelWords() {
   return all;
 }
 
-/// Words of all pixels, each multiplied in: any changed, swapped or missing bit shows.
-std::string hashOf(const Film& film) {
+/// Words of all bytes, each multiplied in: any changed, swapped or missing bit shows.
+std::string hashOf(std::span<const std::byte> bytes) {
   std::uint64_t hash = 14695981039346656037ull;
-  const auto* bytes = reinterpret_cast<const unsigned char*>(film.pixels().data());
-  for (std::size_t i = 0; i < film.pixels().size() * sizeof(PixelState); i += sizeof(std::uint64_t)) {
+  for (std::size_t i = 0; i < bytes.size(); i += sizeof(std::uint64_t)) {
     std::uint64_t word = 0;
-    std::memcpy(&word, bytes + i, sizeof(word));
+    std::memcpy(&word, bytes.data() + i, std::min(sizeof(word), bytes.size() - i));
     hash = std::rotl((hash ^ word) * 1099511628211ull, 29);  // rotation: high bits reach the low ones too
   }
   return fmt::format("{:016x}", hash);
+}
+
+std::string hashOf(const Film& film) { return hashOf(std::as_bytes(std::span(film.pixels()))); }
+
+/// "a.exr.checkpoint" -> "a.exr.checkpoint.0123456789abcdef"
+fs::path companionOf(const fs::path& path, const std::string& hash) { return fs::path(path) += "." + hash; }
+
+bool isCompanion(const fs::path& file, const fs::path& checkpoint) {
+  const std::string name = file.filename().string();
+  const std::string stem = checkpoint.filename().string() + ".";
+  return name.size() == stem.size() + kHashDigits && name.starts_with(stem) &&
+         std::all_of(name.end() - kHashDigits, name.end(), [](unsigned char c) { return std::isxdigit(c) != 0; });
+}
+
+/// Deletes all but the one that is named; "": all. What cannot be deleted does no harm.
+void removeCompanions(const fs::path& checkpoint, const std::string& except) {
+  std::error_code ignored;
+  const fs::path folder = checkpoint.has_parent_path() ? checkpoint.parent_path() : fs::path(".");
+  std::vector<fs::path> old;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+    if (isCompanion(entry.path(), checkpoint) && entry.path().extension() != "." + except) {
+      old.push_back(entry.path());
+    }
+  }
+  for (const fs::path& file : old) {
+    fs::remove(file, ignored);
+  }
+}
+
+void saveCompanion(const fs::path& path, std::span<const std::byte> companion) {
+  writeFileAtomically(path, [&](const fs::path& temporary) {
+    std::ofstream stream(temporary, std::ios::binary);
+    stream.write(reinterpret_cast<const char*>(companion.data()), std::streamsize(companion.size()));
+    stream.close();
+    if (!stream) {
+      fail("{}: writing failed; is the disk full? Free some space or name another output with -o", path.string());
+    }
+  });
 }
 
 Imf::FrameBuffer frameOf(const PixelState* pixels, const Imath::Box2i& data) {
@@ -107,11 +150,17 @@ void checkLayout(const Imf::Header& header, const Metadata& metadata, const std:
 
 } // namespace
 
-void saveCheckpoint(const std::filesystem::path& path, const Film& film, const Metadata& extra) {
+void saveCheckpoint(const std::filesystem::path& path, const Film& film, const Metadata& extra,
+                    std::span<const std::byte> companion) {
+  const std::string companionHash = companion.empty() ? "" : hashOf(companion);
+  if (!companion.empty()) {
+    saveCompanion(companionOf(path, companionHash), companion);
+  }
   Metadata metadata = extra;
   metadata.insert(film.metadata.begin(), film.metadata.end());
   metadata[kVersionKey] = kVersion;
   metadata[kHashKey] = hashOf(film);
+  metadata[kCompanionKey] = companionHash;
   metadata[kHalvesKey] = std::string(film.independentHalves ? "1" : "0");
   Imf::Header header = makeHeader(film.imageSize(), film.window(), metadata);
   header.compression() = Imf::NO_COMPRESSION;
@@ -124,6 +173,35 @@ void saveCheckpoint(const std::filesystem::path& path, const Film& film, const M
     file.setFrameBuffer(frameOf(film.pixels().data(), header.dataWindow()));
     file.writePixels(int(film.window().extent().y));
   });
+  removeCompanions(path, companionHash);
+}
+
+std::vector<std::byte> loadCompanion(const fs::path& path) {
+  checkIsExr(path);
+  const std::string hash = readingExr(path, [&] {
+    return readMetadata(Imf::InputFile(path.string().c_str()).header())[kCompanionKey];
+  });
+  if (hash.empty()) {
+    return {};
+  }
+  const fs::path file = companionOf(path, hash);
+  if (!fs::is_regular_file(file)) {
+    fail("{}: belongs to the checkpoint and is missing; put it back, or delete {} and render again", file.string(),
+         path.string());
+  }
+  const std::string text = readTextFile(file);
+  const auto bytes = std::as_bytes(std::span(text));
+  if (hashOf(bytes) != hash) {
+    fail("{}: is not what was saved with the checkpoint; it is damaged, delete {} and render again", file.string(),
+         path.string());
+  }
+  return {bytes.begin(), bytes.end()};
+}
+
+void removeCheckpoint(const fs::path& path) {
+  std::error_code ignored;
+  fs::remove(path, ignored);
+  removeCompanions(path, "");
 }
 
 bool isCheckpoint(const std::filesystem::path& path) {
@@ -153,7 +231,7 @@ Film loadCheckpoint(const std::filesystem::path& path) {
       fail("{}: the checkpoint's sums are not those that were saved; the file is damaged, render again", path.string());
     }
     film.independentHalves = metadata[kHalvesKey] == "1";
-    for (const std::string& key : {kVersionKey, kHashKey, kHalvesKey}) {
+    for (const std::string& key : {kVersionKey, kHashKey, kHalvesKey, kCompanionKey}) {
       metadata.erase(key);
     }
     film.metadata = std::move(metadata);

@@ -43,6 +43,15 @@ bool sound(const interop::ChainState& state) {
 
 StoreSize storeSize(const scene::GuideSettings& settings, std::size_t pixels, double bytes) {
   StoreSize size;
+  if (settings.preset == scene::Integrator::ScreenChains) {
+    size.screen = static_cast<std::uint32_t>(pixels);
+    if (storeBytes(size) > bytes) {
+      fail("chains in screen space take {:.4g} MB for this picture, where {:.4g} MB are left for chains; allow more "
+           "memory, or render a smaller picture",
+           1e-6 * storeBytes(size), 1e-6 * bytes);
+    }
+    return size;
+  }
   size.states = settings.states;
   const double perCell = double(sizeof(interop::GuideCell) + settings.states * sizeof(interop::ChainState));
   const double cache = settings.score == scene::GuideScore::Cache ? kRadianceShare : 0.0;
@@ -60,13 +69,13 @@ StoreSize storeSize(const scene::GuideSettings& settings, std::size_t pixels, do
 double storeBytes(const StoreSize& size) {
   const double cells = double(size.cells) + size.staticCells;
   return cells * double(sizeof(interop::GuideCell) + size.states * sizeof(interop::ChainState)) +
-         size.radiance * double(sizeof(interop::RadianceCell));
+         size.radiance * double(sizeof(interop::RadianceCell)) + size.screen * double(sizeof(interop::ScreenChain));
 }
 
 Store::Store(const gpu::Device& device, const StoreSize& size)
     : size_(size), cells_(device, std::size_t(size.cells) + size.staticCells, gpu::Memory::Device),
       states_(device, cells_.size() * size.states, gpu::Memory::Device),
-      radiance_(device, size.radiance, gpu::Memory::Device) {
+      radiance_(device, size.radiance, gpu::Memory::Device), screen_(device, size.screen, gpu::Memory::Device) {
   clear();
 }
 
@@ -74,22 +83,24 @@ void Store::clear() {
   cells_.fillZero();
   states_.fillZero();
   radiance_.fillZero();
+  screen_.fillZero();
   round_ = 0;
 }
 
 StoreContent Store::content() const {
-  return {size_, round_, contentOf(cells_), contentOf(states_), contentOf(radiance_)};
+  return {size_, round_, contentOf(cells_), contentOf(states_), contentOf(radiance_), contentOf(screen_)};
 }
 
 void Store::restore(const StoreContent& content) {
   if (!(content.size == size_)) {
-    fail("the chain store was saved with another size ({} cells of {} states, {} wanted); render without --resume, or "
-         "with the settings that it was made with",
-         content.size.cells, content.size.states, size_.cells);
+    fail("the chains that were saved fill another store ({} cells of {} states, now {} of {}); give the --memory that "
+         "they were learnt with, or render without --resume",
+         content.size.cells, content.size.states, size_.cells, size_.states);
   }
   cells_.write(as<interop::GuideCell>(content.cells));
   states_.write(as<interop::ChainState>(content.states));
   radiance_.write(as<interop::RadianceCell>(content.radiance));
+  screen_.write(as<interop::ScreenChain>(content.screen));
   round_ = content.round;
 }
 
@@ -100,9 +111,15 @@ Occupancy Store::occupancy() const {
   for (const interop::GuideCell& cell : as<interop::GuideCell>(now.cells)) {
     (index++ < size_.cells ? result.cells : result.staticCells) += cell.fingerprint != 0 ? 1 : 0;
   }
-  for (const interop::ChainState& state : as<interop::ChainState>(now.states)) {
+  const auto count = [&result](const interop::ChainState& state) {
     result.states += state.weight > 0.0f ? 1 : 0;
     result.unsound += sound(state) ? 0 : 1;
+  };
+  for (const interop::ChainState& state : as<interop::ChainState>(now.states)) {
+    count(state);
+  }
+  for (const interop::ScreenChain& chain : as<interop::ScreenChain>(now.screen)) {
+    count(chain.state);
   }
   for (const interop::RadianceCell& cell : as<interop::RadianceCell>(now.radiance)) {
     result.radiance += cell.fingerprint != 0 ? 1 : 0;
@@ -114,6 +131,7 @@ void Store::describe(interop::Guide& guide) const {
   guide.cells = cells_.ptr();
   guide.states = states_.ptr();
   guide.radiance = radiance_.ptr();
+  guide.screen = screen_.ptr();
   guide.cellCount = size_.cells;
   guide.staticCount = size_.staticCells;
   guide.radianceCount = size_.radiance;

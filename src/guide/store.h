@@ -16,10 +16,12 @@ struct StoreSize {
   std::uint32_t staticCells = 0; ///< 0: there is none
   std::uint32_t states = 1;      ///< of a cell
   std::uint32_t radiance = 0;    ///< cells of the radiance cache; 0: there is none
+  std::uint32_t screen = 0;      ///< chains in screen space, one a pixel, instead of cells; 0: there are none
   bool operator==(const StoreSize&) const = default;
 };
 
-/// For a picture of `pixels`, within `bytes`.
+/// For a picture of `pixels`, within `bytes`. @throws Error if chains in screen space do not fit: each pixel needs its
+/// own.
 StoreSize storeSize(const scene::GuideSettings& settings, std::size_t pixels, double bytes);
 double storeBytes(const StoreSize& size);
 
@@ -30,13 +32,14 @@ struct StoreContent {
   std::vector<std::byte> cells;
   std::vector<std::byte> states;
   std::vector<std::byte> radiance;
+  std::vector<std::byte> screen;
 };
 
 /// How full it is.
 struct Occupancy {
   std::uint64_t cells = 0; ///< taken
   std::uint64_t staticCells = 0;
-  std::uint64_t states = 0; ///< not empty
+  std::uint64_t states = 0; ///< not empty; in screen space: pixels that have one
   std::uint64_t radiance = 0;
   std::uint64_t unsound = 0; ///< states that are not finite: there must be none
 };
@@ -66,6 +69,7 @@ private:
   gpu::Buffer<interop::GuideCell> cells_;
   gpu::Buffer<interop::ChainState> states_;
   gpu::Buffer<interop::RadianceCell> radiance_;
+  gpu::Buffer<interop::ScreenChain> screen_;
 };
 
 } // namespace tyndall::guide

@@ -13,6 +13,8 @@ constexpr std::uint32_t kChunkOnCpu = 16384;
 constexpr std::uint32_t kChunkOnGpu = 262144;
 /// A march counts many cells per pixel: the device's 32-bit counters must hold those of a dispatch.
 constexpr std::uint32_t kMarchChunkOnGpu = 65536;
+/// Guided paths whose bits repeat learn from chunk to chunk: what one is must not depend on the device.
+constexpr std::uint32_t kChunkLogged = 16384;
 
 /// Well below what old Mesa cuts (65535 iterations), and on a GPU below what its watchdog allows.
 constexpr std::uint32_t kStepsOnCpu = 16384;
@@ -68,6 +70,9 @@ std::uint32_t chunkFor(const gpu::Device& device, const EstimatorOptions& option
   if (options.chunkPixels > 0) {
     return options.chunkPixels;
   }
+  if (options.guide && options.guide->ordered()) {
+    return kChunkLogged;
+  }
   const std::uint32_t onGpu = options.method == Method::March ? kMarchChunkOnGpu : kChunkOnGpu;
   return device.info().type == "cpu" ? kChunkOnCpu : onGpu;
 }
@@ -85,7 +90,7 @@ std::unique_ptr<Estimator> makeEstimator(const gpu::Device& device, const gpu_sc
 
 double plannedBytes(const gpu::Device& device, const EstimatorOptions& options) {
   const double perPixel = sizeof(std::uint32_t) + sizeof(interop::PixelSums) + 2.0 * stateBytes(options.method);
-  const double guiding = options.guide ? guidingBytes(options.guide->settings, chunkFor(device, options)) : 0.0;
+  const double guiding = options.guide ? guidingBytes(*options.guide, chunkFor(device, options)) : 0.0;
   return perPixel * chunkFor(device, options) + guiding;
 }
 

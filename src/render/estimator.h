@@ -89,6 +89,9 @@ public:
   virtual CacheReport caches() const { return {}; }
   /// Null where nothing is guided.
   virtual const Guiding* guiding() const { return nullptr; }
+  /// What the store says of first vertices; nothing is learnt or rendered. Only where guiding() is not null.
+  /// @param pixels at most chunkPixels(). @return one entry per pixel, valid until the next call.
+  virtual std::span<const interop::GuideView> viewGuide(std::span<const std::uint32_t> /*pixels*/) { return {}; }
   /// How many times less variance times time guiding has; below 1 it has been switched off. nullopt: not measured.
   virtual std::optional<double> guideGain() const { return std::nullopt; }
 

@@ -4,8 +4,11 @@
 #include "gpu_scene/gpu_scene.h"
 #include "guide/store.h"
 #include "passes/path/path_pass.h"
+#include "render/guide_log.h"
 
 #include <memory>
+#include <optional>
+#include <string>
 
 namespace tyndall::render {
 
@@ -13,9 +16,13 @@ namespace tyndall::render {
 struct GuidePlan {
   scene::GuideSettings settings;
   std::shared_ptr<guide::Store> store;
-  glm::dvec3 origin{0.0}; ///< of the store's space, in the world
-  double time = 0.0;      ///< of the frame [s]
-  double frameTime = 1.0; ///< since the frame before [s]
+  glm::dvec3 origin{0.0};                ///< of the store's space, in the world
+  double time = 0.0;                     ///< of the frame [s]
+  double frameTime = 1.0;                ///< since the frame before [s]
+  std::optional<scene::Camera> before{}; ///< of the frame before, in whose picture the store's chains lie
+  bool deterministic = false;            ///< the store is written in a fixed order; nothing is decided by time
+
+  bool ordered() const { return deterministic && settings.learn; }
 };
 
 /// Counters over all dispatches so far.
@@ -27,6 +34,7 @@ struct GuideTotals {
   std::uint64_t forgotten = 0;
   std::uint64_t evicted = 0;
   std::uint64_t unsound = 0;
+  std::uint64_t lost = 0; ///< updates that the log had no room for
 };
 
 /// What guiding came to.
@@ -41,34 +49,45 @@ struct GuideReport {
 double guideUnit(const scene::GuideSettings& settings, const gpu_scene::GpuScene& scene);
 
 /// Specialization of the path pass for the settings.
-void setGuideSpec(const scene::GuideSettings& settings, const gpu_scene::Features& features, passes::PathSpec& spec);
+void setGuideSpec(const GuidePlan& plan, const gpu_scene::Features& features, passes::PathSpec& spec);
 
 /// Device side of a plan for one estimator: its constants, and the records of paths in flight.
 class Guiding {
 public:
   /// @param pixels of a dispatch.
-  Guiding(const gpu::Device& device, const gpu_scene::GpuScene& scene, const GuidePlan& plan, std::uint32_t pixels);
+  Guiding(const gpu::Device& device, const gpu_scene::GpuScene& scene, const GuidePlan& plan,
+          const passes::PathSpec& spec, std::uint32_t pixels);
 
   interop::Ptr<interop::Guide> ptr() const { return header_.ptr(); }
+  /// Samples of a pixel in a round of `samples` at most.
+  std::uint32_t roundSamples(std::uint32_t samples) const;
   /// Before the dispatches of a call: counters at zero, the store in a round of its own.
   void begin();
   /// After each of them: counters are added up, and at zero again.
   void collect();
+  bool deterministic() const { return plan_.deterministic; }
+  /// Null where nothing is learnt.
+  GuideLog* log() { return log_ ? &*log_ : nullptr; }
   const GuideTotals& totals() const { return totals_; }
   void resetTotals() { totals_ = {}; }
   GuideReport report() const;
+  guide::Store& store() const { return *plan_.store; }
+  /// What targets and cells of the store are relative to, as text: another one makes them worthless.
+  std::string space() const;
 
 private:
   interop::Guide describe(const gpu_scene::GpuScene& scene) const;
 
   GuidePlan plan_;
+  double unit_;
   gpu::Buffer<interop::GuideRecord> records_;
   gpu::Buffer<interop::GuideCounters> counters_;
+  std::optional<GuideLog> log_;
   gpu::Buffer<interop::Guide> header_;
   GuideTotals totals_;
 };
 
 /// Device bytes that guiding takes beside its store.
-double guidingBytes(const scene::GuideSettings& settings, std::uint32_t pixels);
+double guidingBytes(const GuidePlan& plan, std::uint32_t pixels);
 
 } // namespace tyndall::render

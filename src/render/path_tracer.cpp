@@ -50,7 +50,7 @@ passes::PathSpec pathSpecFor(const gpu_scene::Features& features, const Estimato
       features.aimed && options.aim && options.techniques == (interop::kTechniqueLight | interop::kTechniqueDirection);
   spec.kMediumTree = features.mediumTree;
   if (options.guide) {
-    setGuideSpec(options.guide->settings, features, spec);
+    setGuideSpec(*options.guide, features, spec);
   }
   spec.kPlantedBug = options.plantedBug;
   return spec;
@@ -58,9 +58,10 @@ passes::PathSpec pathSpecFor(const gpu_scene::Features& features, const Estimato
 
 PathTracer::PathTracer(const gpu::Device& device, const gpu_scene::GpuScene& scene, const EstimatorOptions& options)
     : device_(device), scene_(scene), spec_(pathSpecFor(scene.features(), options)), runner_(device, options),
-      trial_(options.guide && options.guide->settings.watch && options.guide->settings.learn) {
+      trial_(options.guide && options.guide->settings.watch && options.guide->settings.learn &&
+             !options.guide->deterministic) {
   if (options.guide) {
-    guiding_ = std::make_unique<Guiding>(device, scene, *options.guide, chunkPixels());
+    guiding_ = std::make_unique<Guiding>(device, scene, *options.guide, spec_, chunkPixels());
   }
   choosePass(device, options.rays);
 }
@@ -143,10 +144,31 @@ std::span<const interop::PixelSums> PathTracer::run(std::span<const std::uint32_
                                  : runWith(trial_.guided(samples), pixels, samples, seed);
 }
 
+/// In rounds, where the guide asks for them: each knows what those before it have found.
 std::span<const interop::PixelSums> PathTracer::runWith(bool guided, std::span<const std::uint32_t> pixels,
                                                         SampleRange samples, std::uint32_t seed) {
+  const std::uint32_t each = guided && guiding_ ? guiding_->roundSamples(samples.count) : samples.count;
+  if (each == samples.count) {
+    return runRound(guided, pixels, samples, seed);
+  }
+  roundSums_.assign(pixels.size(), {});
+  for (std::uint32_t done = 0; done < samples.count; done += each) {
+    const auto sums = runRound(guided, pixels, {samples.first + done, std::min(each, samples.count - done)}, seed);
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      addTo(roundSums_[i], sums[i]);
+    }
+  }
+  return roundSums_;
+}
+
+std::span<const interop::PixelSums> PathTracer::runRound(bool guided, std::span<const std::uint32_t> pixels,
+                                                         SampleRange samples, std::uint32_t seed) {
   if (guiding_) {
     guiding_->begin();
+  }
+  GuideLog* log = guided && guiding_ ? guiding_->log() : nullptr;
+  if (log != nullptr) {
+    log->begin(pixels.size());
   }
   const auto collectThem = [this](const interop::PathCounters& counters) {
     collect(counters);
@@ -155,7 +177,12 @@ std::span<const interop::PixelSums> PathTracer::runWith(bool guided, std::span<c
     }
   };
   const passes::PathPass& pass = guided ? *pass_ : plainPass();
-  return runner_.run(pass, inputs(), pixels, samples, seed, stageCost(), collectThem);
+  const auto sums = runner_.run(pass, inputs(), pixels, samples, seed, stageCost(), collectThem);
+  if (log != nullptr) {
+    log->carryOut(guiding_->ptr());
+    guiding_->collect();
+  }
+  return sums;
 }
 
 /// The batch in two halves, timed.
@@ -188,6 +215,21 @@ const passes::PathPass& PathTracer::plainPass() {
     runner_.run(*plain_, inputs(), std::span(&pixel, 1), {0, 1}, 0, stageCost(), [](const interop::PathCounters&) {});
   }
   return *plain_;
+}
+
+std::span<const interop::GuideView> PathTracer::viewGuide(std::span<const std::uint32_t> pixels) {
+  if (!view_) {
+    passes::PathSpec spec = spec_;
+    spec.kGuideView = true;
+    spec.kGuideLearn = false;
+    spec.kCount = false;
+    view_ = std::make_unique<passes::PathPass>(device_, spec, scene_.images(), rays_ ? &rays_->top() : nullptr);
+    views_ = gpu::Buffer<interop::GuideView>(device_, chunkPixels(), gpu::Memory::Host);
+  }
+  interop::PathInputs viewing = inputs();
+  viewing.views = views_.ptr();
+  runner_.run(*view_, viewing, pixels, {0, 1}, 0, stageCost(), [](const interop::PathCounters&) {});
+  return views_.mapped().subspan(0, pixels.size());
 }
 
 void PathTracer::resetTotals() {

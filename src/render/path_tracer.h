@@ -23,6 +23,7 @@ public:
   std::map<std::string, std::string> pipeline() const override;
   const Guiding* guiding() const override;
   void resetTotals() override;
+  std::span<const interop::GuideView> viewGuide(std::span<const std::uint32_t> pixels) override;
   std::optional<double> guideGain() const override;
 
 private:
@@ -34,6 +35,8 @@ private:
   void collect(const interop::PathCounters& counters);
   std::span<const interop::PixelSums> runWith(bool guided, std::span<const std::uint32_t> pixels, SampleRange samples,
                                               std::uint32_t seed);
+  std::span<const interop::PixelSums> runRound(bool guided, std::span<const std::uint32_t> pixels, SampleRange samples,
+                                               std::uint32_t seed);
   std::span<const interop::PixelSums> runTrial(std::span<const std::uint32_t> pixels, SampleRange samples,
                                                std::uint32_t seed);
   const passes::PathPass& plainPass();
@@ -46,7 +49,10 @@ private:
   RayChoice rayChoice_;
   std::unique_ptr<Guiding> guiding_; ///< null: paths are not guided
   std::vector<interop::PixelSums> trialSums_;
+  std::vector<interop::PixelSums> roundSums_;
   std::unique_ptr<passes::PathPass> plain_; ///< without guiding, once it is wanted
+  std::unique_ptr<passes::PathPass> view_;  ///< of the store, likewise
+  gpu::Buffer<interop::GuideView> views_;
   BatchRunner<passes::PathPass, interop::PathInputs, interop::PathState, interop::PathCounters> runner_;
   GuideTrial trial_;
 };

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "film/checkpoint.h"
 #include "film/merge.h"
+#include "guide/store_file.h"
 #include "render/coverage.h"
 #include "render/pixel_order.h"
 
@@ -25,6 +26,9 @@ static_assert(sizeof(interop::PixelSums) == sizeof(BatchSums));
 
 /// Batches after which a pixel that sees nothing but the background is finished: two for each half-buffer.
 constexpr std::uint32_t kBackgroundBatches = 4;
+
+/// What the store's places are relative to, in the film's metadata.
+constexpr const char* kGuideSpaceKey = "guide.space";
 
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
@@ -85,7 +89,7 @@ public:
     }
     // A picture that is done needs no checkpoint, unless it is to be extended; one that was interrupted while only
     // decisions were collected has one from before the first stop.
-    if (interrupted ? !decisions_ : options_.resume) {
+    if (interrupted ? !decisions_ && !dropped_ : options_.resume) {
       saveCheckpoint();
     }
     noteCounts();
@@ -127,6 +131,9 @@ private:
     film::setProvenance(film, {options_.sceneHash, device_, options_.seed, 0, 0});
     film.metadata["driver"] = device.info().driver;
     film.metadata["version"] = TYNDALL_VERSION;
+    if (estimator_->guiding() != nullptr) {
+      film.metadata[kGuideSpaceKey] = estimator_->guiding()->space();
+    }
     if (!options_.resume || options_.checkpoint.empty() || !std::filesystem::exists(options_.checkpoint)) {
       return film;
     }
@@ -143,7 +150,31 @@ private:
       fail("{}: the checkpoint has another size, crop or kind of stopping; delete it, or render without --resume",
            path);
     }
+    if (estimator_->guiding() != nullptr) {
+      restoreChains(*estimator_->guiding(), saved);
+    }
     return saved;
+  }
+
+  /// Those that the saved film's samples have taught.
+  void restoreChains(const Guiding& guiding, const Film& saved) const {
+    const std::string path = options_.checkpoint.string();
+    const std::vector<std::byte> chains = film::loadCompanion(options_.checkpoint);
+    if (chains.empty()) {
+      fail("{}: the checkpoint is that of a guided render and holds no chains; delete it, or render without --resume",
+           path);
+    }
+    const auto space = saved.metadata.find(kGuideSpaceKey);
+    if (space == saved.metadata.end() || space->second != guiding.space()) {
+      fail("{}: the checkpoint's chains have another origin or unit ({}, now {}); give the --frames that it was "
+           "rendered with, or render without --resume",
+           path, space == saved.metadata.end() ? "unknown" : space->second, guiding.space());
+    }
+    try {
+      guiding.store().restore(guide::unpackStore(chains));
+    } catch (const Error& error) {
+      fail("{}: {}", path, error.what());
+    }
   }
 
   bool covered(std::uint32_t pixel) const {
@@ -186,6 +217,7 @@ private:
     if (batch == 0 && estimator_->guiding() != nullptr) {
       rounds.sums.resize(pixels.size());
       rounds.taken.resize(pixels.size());
+      inRounds_ = true;
     }
     while (rounds.done < samples.count && report_.stoppedBy.empty()) {
       const std::uint32_t left = samples.count - rounds.done;
@@ -193,9 +225,11 @@ private:
       runPixels(pixels, batch, {samples.first + rounds.done, count}, rounds);
       rounds.done += count;
     }
+    inRounds_ = false;
     for (std::size_t i = 0; i < rounds.taken.size(); ++i) { // of a batch that was broken off
       if (rounds.taken[i] > 0 && rounds.taken[i] < samples.count) {
         takeBatch(pixels[i], batch, rounds.taken[i], rounds.sums[i]);
+        dropped_ = estimator_->guiding()->deterministic();
       }
     }
   }
@@ -268,7 +302,7 @@ private:
     } else if (options_.stop.seconds && seconds >= *options_.stop.seconds && (batch > 0 || done >= 1.0)) {
       report_.stoppedBy = "time"; // but every pixel gets its first batch
     }
-    if (seconds - lastCheckpoint_ >= options_.checkpointSeconds && !decisions_) {
+    if (seconds - lastCheckpoint_ >= options_.checkpointSeconds && !decisions_ && !inRounds_) {
       saveCheckpoint();
     }
   }
@@ -298,7 +332,10 @@ private:
     lastCheckpoint_ = secondsSince(start_);
     if (!options_.checkpoint.empty()) {
       noteCounts();
-      film::saveCheckpoint(options_.checkpoint, film_, {});
+      const Guiding* guiding = estimator_->guiding();
+      film::saveCheckpoint(options_.checkpoint, film_, {},
+                           guiding != nullptr ? guide::packStore(guiding->store().content())
+                                              : std::vector<std::byte>());
     }
   }
 
@@ -316,6 +353,8 @@ private:
   double lastCheckpoint_ = 0.0;
   double lastError_ = 0.0;
   bool pictureTakesBatch_ = true;
+  bool inRounds_ = false; ///< the chains know samples that the film has not taken: no state to go on from
+  bool dropped_ = false;  ///< rounds were broken off whose bits would not be those of a render without a break
   std::optional<Film> decisions_;
   std::map<std::string, std::uint64_t> countsBefore_; ///< of earlier runs, from the checkpoint
 };

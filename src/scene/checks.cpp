@@ -64,6 +64,12 @@ private:
                                 "at most the most",
                                 guide.leastShare, guide.mostShare));
     }
+    if (!report_.wrong("render", {"integrator", "deterministic"}) && scene_.render.deterministic &&
+        scene_.render.integrator == Integrator::ScreenChains) {
+      report_.error("render.deterministic",
+                    "needs an integrator that learns in a fixed order, which screen-chains does "
+                    "not; take mcpg, or leave --deterministic away");
+    }
   }
 
   void checkMedium(const Medium& medium, const std::string& path) {

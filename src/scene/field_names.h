@@ -32,8 +32,10 @@ inline constexpr NameTable<Object::Kind, 4> kObjectTypes{{{"mesh", Object::Kind:
                                                           {"quad", Object::Kind::Quad},
                                                           {"box", Object::Kind::Box},
                                                           {"sphere", Object::Kind::Sphere}}};
-inline constexpr NameTable<Integrator, 3> kIntegrators{
-    {{"path", Integrator::Path}, {"mcpg-paper", Integrator::McpgPaper}, {"mcpg", Integrator::Mcpg}}};
+inline constexpr NameTable<Integrator, 4> kIntegrators{{{"path", Integrator::Path},
+                                                        {"screen-chains", Integrator::ScreenChains},
+                                                        {"mcpg-paper", Integrator::McpgPaper},
+                                                        {"mcpg", Integrator::Mcpg}}};
 inline constexpr NameTable<GuideWeight, 3> kGuideWeights{{{"accepted", GuideWeight::Accepted},
                                                            {"forgets", GuideWeight::Forgets},
                                                            {"mean", GuideWeight::Mean}}};

@@ -56,6 +56,7 @@ void fields(V& v, RenderSettings& render) {
   v.choice("integrator", render.integrator, Names<Integrator>(kIntegrators), "how directions of paths are drawn");
   v.flag("light_sampling", render.lightSampling,
          "send shadow rays to lights; false: lights that have a size are found by directions alone");
+  v.flag("deterministic", render.deterministic, "the same bits from every run, of guided pictures too");
 }
 
 template <class V>
@@ -67,7 +68,7 @@ void fields(V& v, Scene& scene) {
   if (scene.guide.preset != scene.render.integrator) {
     scene.guide = guideSettings(scene.render.integrator); // what is not given is the integrator's own
   }
-  v.object("guide", scene.guide, "path guiding, for integrators \"mcpg\" and \"mcpg-paper\"");
+  v.object("guide", scene.guide, "path guiding, for all integrators but \"path\"");
   v.list("media", scene.media, "what fills space");
   v.list("lights", scene.lights, "what shines from outside the media");
   v.list("materials", scene.materials, "what surfaces are made of");

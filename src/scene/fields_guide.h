@@ -28,6 +28,9 @@ void fields(V& v, GuideSettings& guide) {
   v.flag("normals", guide.normals, "cells of the grid that follows the camera differ by normal");
   v.flag("learn_share", guide.learnShare, "of scattering's own directions");
   v.choice("weight", guide.weight, Names<GuideWeight>(kGuideWeights), "what a state's weight is the mean of");
+  v.flag("fit", guide.fit, "the states of a cell are fitted together");
+  v.number("newborn_share", guide.newbornShare, share, "of a fitted cell");
+  v.whole("fit_samples", guide.fitSamples, WholeRange{0, 1u << 20}, "of a fitted cell before it is read");
   v.flag("learn", guide.learn, "false: the store is read alone");
   v.flag("watch", guide.watch, "measure what guiding gains, and leave it away where it does not pay");
   v.object("cells", guide.cells, "how the cells of chains grow with the distance from the camera");
@@ -49,6 +52,8 @@ void fields(V& v, GuideSettings& guide) {
   v.number("radiance_limit", guide.radianceLimit, Range{1.0, 1e9},
            "a sample of the radiance cache counts for at most this many times the mean");
   v.number("most_time", guide.mostTime, Range{0.0, 1e9, "s"}, "that a target is moved ahead for");
+  v.whole("round_samples", guide.roundSamples, WholeRange{0, 1u << 16},
+          "samples of a pixel in a round of the picture, after which the next ones learn; 0 for a batch's");
   v.whole("records", guide.records, WholeRange{1, 64}, "vertices of a path that learn");
   v.whole("window", guide.window, WholeRange{1, 64}, "cells that a place may be kept in");
   v.whole("slots", guide.slots, WholeRange{0, 1u << 27}, "cells of the store; 0 for by the picture and the memory");

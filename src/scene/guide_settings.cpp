@@ -5,15 +5,32 @@
 
 namespace tyndall::scene {
 
-GuideSettings guideSettings(Integrator integrator) {
-  GuideSettings settings;
-  settings.preset = integrator;
-  if (integrator != Integrator::McpgPaper) {
-    settings.cells.angle = 0.1; // cells must fill before a picture of some hundred samples is done
-    settings.mostShare = 0.95;  // 1 / share compounds over the events of a path
-    return settings;
-  }
+namespace {
+
+void setMcpg(GuideSettings& settings) {
+  settings.cells.angle = 0.1; // cells must fill before a picture of some hundred samples is done
+  settings.mostShare = 0.95;  // 1 / share compounds over the events of a path
+}
+
+void setScreenChains(GuideSettings& settings) {
+  settings.fit = false;
+  settings.loads = 6; // the pixel's own state and five of its neighbours
+  settings.states = 1;
+  settings.staticGrid = false;
+  settings.learnShare = false;
+  settings.weight = GuideWeight::Accepted;
+  settings.watch = false;
+  settings.priorRadius = 0.0; // the published prior does not know the distance
+  settings.priorLeast = 0.2;
+  settings.mostKappa = 1e6;
+  settings.scatterShare = 0.15;
+  settings.roundSamples = 8;
+  settings.records = 1;
+}
+
+void setPaper(GuideSettings& settings) {
   // The published settings; a unit of the game that they were made in is taken for a thousandth of the diagonal.
+  settings.fit = false;
   settings.score = GuideScore::Cache;
   settings.loads = 5;
   settings.states = 1;
@@ -30,6 +47,20 @@ GuideSettings guideSettings(Integrator integrator) {
   settings.forgetBelow = 0.05;
   settings.forgetRate = 1.0;
   settings.window = 1;
+}
+
+} // namespace
+
+GuideSettings guideSettings(Integrator integrator) {
+  GuideSettings settings;
+  settings.preset = integrator;
+  if (integrator == Integrator::McpgPaper) {
+    setPaper(settings);
+  } else if (integrator == Integrator::ScreenChains) {
+    setScreenChains(settings);
+  } else {
+    setMcpg(settings);
+  }
   return settings;
 }
 

@@ -7,9 +7,10 @@ namespace tyndall::scene {
 
 /// How directions of paths are drawn.
 enum class Integrator {
-  Path,      ///< by scattering and light samples alone
-  McpgPaper, ///< Markov chains as published [Alber25]
-  Mcpg,      ///< the same parts, set for multiple scattering beside light sampling
+  Path,         ///< by scattering and light samples alone
+  ScreenChains, ///< Markov chains in screen space, at the first surface alone [Dittebrandt23]
+  McpgPaper,    ///< Markov chains as published [Alber25]
+  Mcpg,         ///< the same parts, set for multiple scattering beside light sampling
 };
 
 /// Where the score of a direction comes from.
@@ -45,8 +46,11 @@ struct GuideSettings {
   bool normals = false;     ///< adaptive cells differ by normal
   bool learnShare = true;   ///< of scattering's own directions
   GuideWeight weight = GuideWeight::Mean;
-  bool learn = true; ///< false: the store is read alone
-  bool watch = true; ///< measure what guiding gains, and leave it away where it does not pay
+  bool fit = true;               ///< the states of a cell are fitted together
+  double newbornShare = 0.1;     ///< of a fitted cell's weight that stands for what no state explains
+  std::uint32_t fitSamples = 16; ///< of a fitted fine cell before it is read
+  bool learn = true;             ///< false: the store is read alone
+  bool watch = true;             ///< measure what guiding gains, and leave it away where it does not pay
   GuideLevels cells;
   GuideLevels radiance{.angle = 0.02, .finest = 1.0, .ratio = 2.0, .spread = 0.0};
   double staticWidth = 100.0;
@@ -63,10 +67,11 @@ struct GuideSettings {
   double forgetBelow = 0.05;
   double forgetRate = 0.125;
   double radianceLimit = 8.0;
-  double mostTime = 0.25;    ///< seconds that a target is moved ahead for at most
-  std::uint32_t records = 8; ///< vertices of a path that learn
-  std::uint32_t window = 4;  ///< cells that a vertex may be in
-  std::uint32_t slots = 0;   ///< adaptive cells; 0: by the picture and the memory
+  double mostTime = 0.25;         ///< seconds that a target is moved ahead for at most
+  std::uint32_t roundSamples = 4; ///< of a pixel that know nothing of each other; 0: as many as a batch has
+  std::uint32_t records = 8;      ///< vertices of a path that learn
+  std::uint32_t window = 4;       ///< cells that a vertex may be in
+  std::uint32_t slots = 0;        ///< adaptive cells; 0: by the picture and the memory
 };
 
 /// The settings that an integrator begins with.

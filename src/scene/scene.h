@@ -146,6 +146,7 @@ struct RenderSettings {
   std::optional<std::uint32_t> depth; ///< scattering events, 0 = unlimited; empty: 1 without objects, else unlimited
   Integrator integrator = Integrator::Path;
   bool lightSampling = true; ///< false: lights that have a size are found by directions alone
+  bool deterministic = false; ///< guided pictures repeat bit for bit too
 };
 
 /// A surface, or several. Its triangles have their file's materials unless `material` names one of the scene's.

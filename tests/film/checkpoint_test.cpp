@@ -4,6 +4,7 @@
 #include "film/exr.h"
 #include "film_fixture.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace tyndall::film {
@@ -100,6 +101,79 @@ TEST(Checkpoint, APictureIsNotACheckpoint) {
   EXPECT_NE(errorOf([&] { loadCheckpoint(folder / "a.exr"); }).find("not a checkpoint"), std::string::npos);
   saveCheckpoint(folder / "b.exr", testFilm());
   EXPECT_TRUE(isCheckpoint(folder / "b.exr"));
+}
+
+std::vector<std::byte> pseudoBytes(std::size_t count, unsigned seed) {
+  std::mt19937 generator(seed);
+  std::vector<std::byte> bytes(count);
+  std::generate(bytes.begin(), bytes.end(), [&] { return std::byte(generator()); });
+  return bytes;
+}
+
+/// Files beside the checkpoint.
+std::vector<std::filesystem::path> companionsIn(const TemporaryFolder& folder) {
+  std::vector<std::filesystem::path> found;
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "")) {
+    if (entry.path().filename().string().starts_with("a.exr.checkpoint.")) {
+      found.push_back(entry.path());
+    }
+  }
+  return found;
+}
+
+TEST(Checkpoint, ItsCompanionComesAndGoesWithIt) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder / "a.exr.checkpoint";
+  writeBytes(folder / "a.exr.checkpoint.notes", "somebody else's");
+  for (const std::size_t size : {1000u, 1001u, 0u, 77u}) { // whole words and a rest; none
+    const std::vector<std::byte> companion = pseudoBytes(size, unsigned(size));
+    saveCheckpoint(path, testFilm(), {}, companion);
+    EXPECT_EQ(loadCompanion(path), companion);
+    EXPECT_EQ(loadCheckpoint(path).metadata, testFilm().metadata);
+    EXPECT_EQ(companionsIn(folder).size(), size > 0 ? 2u : 1u) << "the one before is deleted, and nothing else";
+  }
+  removeCheckpoint(path);
+  EXPECT_FALSE(std::filesystem::exists(path));
+  EXPECT_EQ(companionsIn(folder).size(), 1u);
+}
+
+/// A program that ends between the two files leaves the checkpoint before with the companion that belongs to it.
+TEST(Checkpoint, IsNeverWithoutItsCompanion) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder / "a.exr.checkpoint";
+  const std::vector<std::byte> before = pseudoBytes(3000, 1);
+  saveCheckpoint(path, testFilm(), {}, before);
+  const std::string checkpoint = bytesOf(path);
+  const std::filesystem::path companion = companionsIn(folder).front();
+  {
+    const FullDisk disk; // has room for the companion, not for the checkpoint
+    EXPECT_THROW(saveCheckpoint(path, testFilm(), {}, pseudoBytes(3000, 2)), Error);
+  }
+  EXPECT_EQ(companionsIn(folder).size(), 2u);
+  EXPECT_EQ(bytesOf(path), checkpoint);
+  EXPECT_EQ(loadCompanion(path), before);
+  saveCheckpoint(path, testFilm(), {}, pseudoBytes(3000, 3));
+  EXPECT_EQ(companionsIn(folder).size(), 1u);
+  EXPECT_FALSE(std::filesystem::exists(companion));
+}
+
+TEST(Checkpoint, ADamagedOrMissingCompanionIsRefused) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder / "a.exr.checkpoint";
+  saveCheckpoint(path, testFilm(), {}, pseudoBytes(1001, 1));
+  const std::filesystem::path companion = companionsIn(folder).front();
+  const std::string whole = bytesOf(companion);
+  for (std::size_t i = 0; i < whole.size(); i += 50) {
+    std::string damaged = whole;
+    damaged[i] ^= char(1 << i % 8);
+    writeBytes(companion, damaged);
+    EXPECT_NE(errorOf([&] { loadCompanion(path); }).find("damaged"), std::string::npos) << i;
+    writeBytes(companion, whole.substr(0, i));
+    EXPECT_NE(errorOf([&] { loadCompanion(path); }).find("damaged"), std::string::npos) << i;
+  }
+  std::filesystem::remove(companion);
+  EXPECT_NE(errorOf([&] { loadCompanion(path); }).find("missing"), std::string::npos);
+  loadCheckpoint(path); // the film alone is whole
 }
 
 TEST(Checkpoint, UnwritableOutputsLeaveNothingBehind) {

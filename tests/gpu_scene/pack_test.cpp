@@ -2,11 +2,13 @@
 // Packing: scene values to device structs, without a device.
 #include "gpu_scene/lights.h"
 #include "gpu_scene/media.h"
+#include "gpu_scene/raster.h"
 #include "volume/load.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -40,6 +42,42 @@ TEST(PackCamera, CornersOfThePictureAreWhereTheyShouldBe) {
   EXPECT_NEAR(glm::distance(packed.corner, glm::vec3(-2.0f, 1.0f, -1.0f)), 0.0f, 1e-6f);
   EXPECT_NEAR(glm::distance(packed.corner + packed.rasterX + packed.rasterY, glm::vec3(2.0f, -1.0f, -1.0f)), 0.0f,
               1e-6f);
+}
+
+/// Largest distance in the picture, in its heights and widths, between where rays leave it and where the camera `seer`
+/// sees points along them.
+float rasterError(const scene::Camera& camera, const scene::Camera& seer) {
+  const glm::uvec2 size(200, 100);
+  const glm::dvec3 centre(10.0, -1.0, 0.0);
+  const interop::Camera packed = packCamera(camera, size, centre);
+  const glm::mat4x3 raster = rasterFromWorld(seer, size, centre);
+  const bool perspective = camera.kind == scene::Camera::Kind::Perspective;
+  float worst = 0.0f;
+  for (const glm::vec2 place : {glm::vec2(0.0f), glm::vec2(0.9f, 0.3f), glm::vec2(0.4f, 1.0f)}) {
+    for (const float distance : {0.1f, 4.0f}) {
+      const glm::vec3 offset = place.x * packed.rasterX + place.y * packed.rasterY;
+      const glm::vec3 point = perspective ? packed.origin + distance * (packed.corner + offset)
+                                          : packed.origin + offset + distance * packed.corner;
+      const glm::vec3 seen = raster * glm::vec4(point, 1.0f);
+      EXPECT_GT(seen.z, 0.0f);
+      worst = std::max(worst, glm::distance(glm::vec2(seen) / seen.z, place));
+    }
+  }
+  return worst;
+}
+
+/// 1e-4: a hundredth of a pixel of this picture. Another camera's map is seen.
+TEST(Raster, PointsAreSeenWhereTheirRaysLeave) {
+  scene::Camera camera;
+  camera.position = {11.0, 2.0, 5.0};
+  camera.target = {10.0, 0.5, 0.0};
+  for (const scene::Camera::Kind kind : {scene::Camera::Kind::Perspective, scene::Camera::Kind::Orthographic}) {
+    camera.kind = kind;
+    EXPECT_LT(rasterError(camera, camera), 1e-4f);
+    scene::Camera moved = camera;
+    moved.position.x += 0.01;
+    EXPECT_GT(rasterError(camera, moved), 1e-4f) << "the planted camera was not seen";
+  }
 }
 
 TEST(PackGrid, VoxelSpaceIsIndexSpaceFromTheFirstVoxelOn) {

@@ -101,9 +101,35 @@ void learn(const PathScene& test, const StorePtr& store, const scene::GuideSetti
 }
 
 std::vector<interop::ChainState> statesOf(const guide::Store& store) {
-  std::vector<interop::ChainState> states = read<interop::ChainState>(store.content().states);
+  const guide::StoreContent content = store.content();
+  std::vector<interop::ChainState> states = read<interop::ChainState>(content.states);
+  for (const interop::ScreenChain& chain : read<interop::ScreenChain>(content.screen)) {
+    states.push_back(chain.state);
+  }
   std::erase_if(states, [](const interop::ChainState& state) { return !(state.weight > 0.0f); });
   return states;
+}
+
+guide::StoreContent carryOut(const guide::StoreSize& size, passes::GuideApplySpec spec, interop::Guide guide,
+                             std::span<const interop::GuideUpdate> log, const guide::LogOrder& order) {
+  guide::Store store(probeDevice(), size);
+  store.nextRound();
+  const gpu::Buffer<interop::GuideUpdate> updates(probeDevice(), log);
+  const gpu::Buffer<interop::GuideCounters> counters(probeDevice(), 1, gpu::Memory::Host);
+  const gpu::Buffer<std::uint32_t> places(probeDevice(), std::span(order.places));
+  const gpu::Buffer<std::uint32_t> first(probeDevice(), std::span(order.first));
+  store.describe(guide);
+  guide.log = updates.ptr();
+  guide.counters = counters.ptr();
+  const gpu::Buffer<interop::Guide> header(probeDevice(), std::span(&guide, 1));
+  spec.kGuideOrdered = true;
+  const passes::GuideApplyPass pass(probeDevice(), spec);
+  pass.run({.guide = header.ptr(),
+            .places = places.ptr(),
+            .first = first.ptr(),
+            .count = static_cast<std::uint32_t>(order.first.size() - 1),
+            .kinds = ~0u});
+  return store.content();
 }
 
 void fillWithGarbage(guide::Store& store, unsigned seed) {
@@ -117,11 +143,19 @@ void fillWithGarbage(guide::Store& store, unsigned seed) {
     }
     cells[i].scatterGain = garbage.positive();
     cells[i].guideGain = garbage.positive();
-    cells[i].samples = garbage.bits();
+    cells[i].samples = garbage.bits() >> garbage.bits() % 32; // as many as may be, or too few to be read
     for (std::size_t j = 0; j < content.size.states; ++j) {
       states[i * content.size.states + j] = garbage.state();
     }
   }
+  std::vector<interop::ScreenChain> screen = read<interop::ScreenChain>(content.screen);
+  for (interop::ScreenChain& chain : screen) { // where pixels saw their vertices is kept: others read no state
+    chain.state = garbage.state();
+    chain.score = garbage.weight();
+    chain.round = garbage.bits();
+    chain.normal *= garbage.uniform(0.0, 1.0) < 0.1 ? garbage.positive() : 1.0f;
+  }
+  content.screen = written(screen);
   content.cells = written(cells);
   content.states = written(states);
   store.restore(content);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "guide/store.h"
+#include "guide/log_order.h"
+#include "passes/guide_apply/guide_apply_pass.h"
 #include "support/path_scenes.h"
 
 #include <memory>
@@ -30,6 +31,10 @@ void learn(const PathScene& test, const StorePtr& store, const scene::GuideSetti
 
 /// The store's states that are not empty.
 std::vector<interop::ChainState> statesOf(const guide::Store& store);
+
+/// What an empty store of a size holds after a log that is carried out in an order. @param guide constants of learning.
+guide::StoreContent carryOut(const guide::StoreSize& size, passes::GuideApplySpec spec, interop::Guide guide,
+                             std::span<const interop::GuideUpdate> log, const guide::LogOrder& order);
 
 /// Overwrites every state of the cells that are taken, and what the cells have learnt, with numbers without sense:
 /// targets anywhere, weights over 20 decades, some that are infinite, none or near the largest float.

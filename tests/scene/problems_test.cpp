@@ -225,11 +225,11 @@ TEST(SceneProblems, Lights) {
 
 TEST(SceneProblems, SettingsOfGuiding) {
   const std::vector<Malformed> cases{
-      {R"("guide": {"states": @9})",
-       "guide.states: makes 18 lobes, 2 loads times 9 states, but 16 is the most; take at most 1 loads or 8 states"},
+      {R"("guide": {"loads": @3})",
+       "guide.loads: makes 24 lobes, 3 loads times 8 states, but 16 is the most; take at most 2 loads or 5 states"},
       {R"("guide": {"loads": @5, "states": 4})", "guide.loads: makes 20 lobes"},
       {R"("guide": {"loads": @16, "states": 16})", "take at most 1 loads or 1 states"},
-      {R"("render": {"integrator": "mcpg-paper"}, "guide": {"states": @4})", "makes 20 lobes, 5 loads times 4 states"},
+      {R"("render": {"integrator": "mcpg-paper"}, "guide": {"states": @4})", "guide.states: makes 20 lobes, 5 loads times 4"},
       {R"("guide": {"least_share": @0.9})", "leaves nothing between the least_share of 0.9 and the most_share of 0.85"},
       {R"("guide": {"most_share": @0.2})", "guide.most_share: leaves nothing"},
       {R"("guide": {"least_share": @0.6, "most_share": 0.5})", "guide.least_share: leaves nothing"},

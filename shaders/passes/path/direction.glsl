@@ -3,14 +3,26 @@
 #ifndef TYNDALL_PATH_DIRECTION_GLSL
 #define TYNDALL_PATH_DIRECTION_GLSL
 
-#include "guide/mixture.glsl"
+#include "guide/screen_chains.glsl"
 #include "passes/path/scatter.glsl"
+
+// What stands for a normal where states are looked up and kept. The picture's neighbours see smooth shapes, not facets.
+vec3 facingOf(ScatterPoint vertex) {
+  return !onSurface(vertex) ? -vertex.incoming : kGuideScreen ? vertex.frame[2] : vertex.place.normal;
+}
 
 // Loads what guides directions at a vertex that does not scatter by a delta.
 void prepareDirection(GuidePtr guide, ScatterPoint vertex, inout Rng rng) {
   const vec3 point = vertex.place.position + guide.at[0].shift;
-  const vec3 facing = onSurface(vertex) ? vertex.place.normal : -vertex.incoming;
-  loadMixture(guide, point, vertex.transmits ? vec3(0.0) : vertex.place.normal, facing, rng);
+  const vec3 horizon = vertex.transmits ? vec3(0.0) : vertex.place.normal;
+  if (!kGuideScreen) {
+    loadMixture(guide, point, horizon, facingOf(vertex), rng);
+  } else if (path.events == 1u && onSurface(vertex)) {
+    const vec3 before = vertex.before + guide.at[0].shift;
+    loadScreenChains(guide, ScreenVertex(pixelInFlight(), point, before, facingOf(vertex)), horizon, rng);
+  } else {
+    clearMixture();
+  }
 }
 
 // Value of scattering (x, y, z) and density of directionSample (w) [1/sr]; 0 for deltas.
@@ -25,12 +37,14 @@ vec4 directionEvalPdf(ScatterPoint vertex, vec3 w) {
 struct DirectionSample {
   ScatterSample drawn;
   float scatterPart; // of the density: scattering's own
+  float unguided;    // the weight that scattering's own density gives, over that of the mixture's
   bool guided;
 };
 
 DirectionSample directionSample(ScatterPoint vertex, inout Rng rng) {
   DirectionSample result;
   result.scatterPart = 1.0;
+  result.unguided = 1.0;
   result.guided = kGuide && !scatterIsDelta(vertex) && rngFloat(rng) >= mixture.scatterShare;
   if (result.guided) {
     ++mixtureGuided;
@@ -45,6 +59,7 @@ DirectionSample directionSample(ScatterPoint vertex, inout Rng rng) {
   const float pdf = mixturePdf(scattered.w, result.drawn.direction);
   result.drawn.pdf = pdf;
   result.drawn.weight = pdf > 0.0 ? scattered.xyz / pdf : vec3(0.0);
+  result.unguided = scattered.w > 0.0 ? pdf / scattered.w : 1.0;
   result.scatterPart = pdf > 0.0 ? mixture.scatterShare * scattered.w / pdf : 0.0;
   return result;
 }

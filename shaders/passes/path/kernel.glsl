@@ -16,6 +16,11 @@ layout(push_constant, scalar) uniform Push { PathInputs io; };
 // The sample in flight. Private memory, and no argument of the stages: copies of it at every call are what compiling costs.
 PathState path;
 
+uvec2 pixelInFlight() {
+  const uint packed = io.pixels.at[path.slot];
+  return uvec2(packed & 0xffffu, packed >> 16);
+}
+
 #include "passes/path/stages.glsl"
 
 layout(local_size_x = 64) in;
@@ -107,6 +112,9 @@ bool runStage(uvec2 pixel, inout Rng rng) {
 
 void beginPath(uint slot) {
   path.slot = slot;
+  if (kGuideView) {
+    io.views.at[slot] = kNoView;
+  }
   path.sampleIndex = 0u;
   path.stage = kStageSample;
   path.casting = 0u;
@@ -135,7 +143,6 @@ void countGuiding() {
   if (kGuideLearn) {
     atomicAdd(counters.at[0].accepted, learnAccepted);
     atomicAdd(counters.at[0].forgotten, learnForgotten);
-    atomicAdd(counters.at[0].evicted, storeEvicted);
     atomicAdd(counters.at[0].unsound, learnUnsound);
   }
 }
@@ -151,8 +158,7 @@ void main() {
   }
   Rng rng;
   rng.state = path.rng;
-  const uint packed = io.pixels.at[path.slot];
-  const uvec2 pixel = uvec2(packed & 0xffffu, packed >> 16);
+  const uvec2 pixel = pixelInFlight();
   WalkCounts counts = WalkCounts(0u, 0u, io.stepBound);
   uint segments = 0u;
   bool done = false;

@@ -6,6 +6,7 @@
 #define TYNDALL_PATH_IO_H
 
 #include "interop/guide.h"
+#include "interop/guide_view.h"
 #include "interop/pixel_sums.h"
 #include "interop/planted_bugs.h"
 #include "interop/scene.h"
@@ -52,6 +53,10 @@
   SPEC(uint, kGuideWeight,     36, 0u)          /* kWeight* of interop/guide.h */             \
   SPEC(bool, kGuideMotion,     37, false)       /* targets move */                            \
   SPEC(bool, kGuideLearn,      38, true)        /* the store is written */                    \
+  SPEC(bool, kGuideOrdered,    44, false)       /* each pixel has its own places in the log */ \
+  SPEC(bool, kGuideFit,        45, false)       /* the states of a cell are fitted together */ \
+  SPEC(bool, kGuideScreen,     39, false)       /* chains in screen space instead of cells */ \
+  SPEC(bool, kGuideView,       46, false)       /* looks at the store, renders nothing */     \
   SPEC(uint, kPlantedBug,      26, 0u)          /* tests: kBug*; 0 = none */
 // clang-format on
 
@@ -113,6 +118,7 @@ struct PathState {
   PathRay next;          // the path's own, while shadow rays are in flight; stage Aimed: the shadow ray
   PathVertex vertex;     // that the path's own ray comes from
   vec3 throughput;       // of the path up to its ray's origin
+  float unguided;        // ... that it would have, had scattering drawn its directions, over it
   vec3 ratio;            // per channel: the path's pdf with that channel as hero, over their mean
   vec3 pending;          // what the shadow ray's transmittance multiplies
   uint hero;
@@ -154,6 +160,7 @@ struct PathInputs {
   GPU_PTR(PathState) suspendedOut;
   GPU_PTR(PathCounters) counters;
   GPU_PTR(Guide) guide;            // kGuide
+  GPU_PTR(GuideView) views;        // kGuideView: of each pixel's last sample
   uint count;                      // pixels, or suspended states when resuming
   uint firstSample;                // index of the batch's first sample within the pixel
   uint sampleCount;                // samples of this batch to take

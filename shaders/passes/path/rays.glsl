@@ -57,13 +57,13 @@ void castPath(PathRay ray, float travelled) {
 
 void stageSample(ScenePtr scene, uvec2 pixel, uint seed, uint sampleIndex, inout Rng rng) {
   rng = rngSeed(pixel, sampleIndex, seed);
-  const vec2 raster = (vec2(pixel) + rngFloat2(rng)) / vec2(scene.at[0].imageSize);
+  const vec2 raster = (vec2(pixel) + (kGuideView ? vec2(0.5) : rngFloat2(rng))) / vec2(scene.at[0].imageSize);
   Camera camera = scene.at[0].camera;
   const vec3 offset = raster.x * camera.rasterX + raster.y * camera.rasterY;
   PathRay ray;
   ray.origin = kOrthographic ? camera.origin + offset : camera.origin;
   ray.direction = kOrthographic ? camera.corner : camera.corner + offset;
-  if (kLens) {
+  if (kLens && !kGuideView) {
     const vec2 lens = uniformDiscSample(rngFloat2(rng));
     const vec3 shift = lens.x * camera.lensX + lens.y * camera.lensY;
     ray.origin += shift;
@@ -74,6 +74,7 @@ void stageSample(ScenePtr scene, uvec2 pixel, uint seed, uint sampleIndex, inout
   ray.interiors = camera.interiors;
   path.vertex = PathVertex(ray.origin, vec3(0.0), 0.0, 0.0, 0u);
   path.throughput = vec3(1.0);
+  path.unguided = 1.0;
   path.ratio = vec3(1.0);
   path.pending = vec3(0.0);
   path.nextCast = 0u;

@@ -12,6 +12,7 @@
 
 struct ScatterPoint {
   SurfacePoint place;   // media: normal 0; surfaces: the normal is on the side of the shading frame's z
+  vec3 before;          // where the place was in the previous frame
   vec3 incoming;        // the way the path travels, unit
   Phase phase;          // media
   Bsdf bsdf;            // surfaces
@@ -78,6 +79,7 @@ ScatterPoint mediumVertex(ScenePtr scene, PathRay ray, float t, uint medium) {
   ScatterPoint vertex;
   vertex.flightT = medium < scene.at[0].homogeneousCount ? t : -1.0;
   vertex.place = SurfacePoint(ray.origin + t * ray.direction, vec3(0.0), 0.0);
+  vertex.before = vertex.place.position;
   vertex.incoming = ray.direction;
   vertex.phase = scene.at[0].media.at[medium].phase;
   vertex.surface = false;

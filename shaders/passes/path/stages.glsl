@@ -13,6 +13,7 @@
 #define TYNDALL_PATH_STAGES_GLSL
 
 #include "passes/path/gather.glsl"
+#include "passes/path/view.glsl"
 
 // The path's own ray again, or the end.
 void goOn(ScenePtr scene, inout Rng rng) {
@@ -76,8 +77,12 @@ void drawDirection(ScenePtr scene, ScatterPoint vertex, inout Rng rng) {
     recordVertex(io.guide, vertex, direction, path.throughput);
   }
   path.throughput *= drawn.weight;
+  if (kGuide) {
+    path.unguided = min(path.unguided * direction.unguided, 1e30);
+  }
   if (path.events >= kRouletteEvents) {
-    const float strongest = max(path.throughput.x, max(path.throughput.y, path.throughput.z));
+    // A lobe that points to light lowers the throughput, and must not end the path for it.
+    const float strongest = max(path.throughput.x, max(path.throughput.y, path.throughput.z)) * (kGuide ? path.unguided : 1.0);
     const float survival = min(strongest, path.events >= kEndingEvents ? kEndingSurvival : 1.0);
     path.throughput = rngFloat(rng) < survival ? path.throughput / (kPlantedBug == kBugRoulette ? 1.0 : survival) : vec3(0.0);
   }
@@ -93,10 +98,16 @@ void scatter(ScenePtr scene, ScatterPoint vertex, inout Rng rng) {
   const vec3 throughput = path.throughput;
   LightRequest request;
   request.value = vec3(0.0);
-  if (kGuide && !scatterIsDelta(vertex)) {
-    if (kGuideLearn) {
-      recordArrives(io.guide, vertex, throughput, rng);
-    }
+  const bool guides = kGuide && !scatterIsDelta(vertex);
+  if (kGuideView && guides) {
+    view(io.guide, vertex);
+    path.stage = kStageDone;
+    return;
+  }
+  if (kGuideLearn && (guides || kGuideScreen)) { // on screen no mirror passes on what it shows
+    recordArrives(io.guide, vertex, throughput, rng);
+  }
+  if (guides) {
     prepareDirection(io.guide, vertex, rng);
   }
   if ((kEmitters || kDistantDeltas || kDistantAreas) && !scatterIsDelta(vertex)) {
@@ -120,19 +131,20 @@ void recordFirst(float t, vec3 albedo) {
   }
 }
 
-void arriveInMedium(ScenePtr scene, float t, uint medium, inout Rng rng) {
+// Whether the path scatters at `vertex`.
+bool arriveInMedium(ScenePtr scene, float t, uint medium, out ScatterPoint vertex) {
+  vertex = mediumVertex(scene, path.ray, t, medium);
   if (kGuide) {
-    const vec3 point = path.ray.origin + t * path.ray.direction;
-    recordMeets(io.guide, point, point);
+    recordMeets(io.guide, vertex.place.position, vertex.place.position);
   }
   if (path.events >= scene.at[0].maxEvents) {
     path.stage = kStageDone; // the last ray only looked for light
-    return;
+    return false;
   }
   const vec3 albedo = scene.at[0].media.at[medium].albedo;
   recordFirst(t, albedo);
   path.throughput *= albedo;
-  scatter(scene, mediumVertex(scene, path.ray, t, medium), rng);
+  return true;
 }
 
 // Share of the path's own direction in finding the emissive surface that it has hit.
@@ -149,10 +161,11 @@ float emissionWeight(ScenePtr scene, SurfaceVertex surface) {
   return directionWeight(path.vertex.pdf, light * emitterProbability(scene, surface.emitter, path.vertex));
 }
 
-void arriveOnSurface(ScenePtr scene, HitAttributes hit, SurfacePass through, inout Rng rng) {
+// Likewise.
+bool arriveOnSurface(ScenePtr scene, HitAttributes hit, SurfacePass through, out ScatterPoint vertex) {
   if (kPassing && through.passes) {
     castPath(through.beyond, kPlantedBug == kBugLineRestart ? 0.0 : path.vertex.travelled + path.hit.t);
-    return;
+    return false;
   }
   if (kGuide) {
     recordMeets(io.guide, hit.place.position, placeBefore(scene, hit));
@@ -162,11 +175,12 @@ void arriveOnSurface(ScenePtr scene, HitAttributes hit, SurfacePass through, ino
     path.radiance += path.throughput * surface.emission * emissionWeight(scene, surface);
   }
   recordFirst(path.hit.t, surface.scatter.bsdf.colour);
+  vertex = surface.scatter;
   if (path.events >= scene.at[0].maxEvents) {
     path.stage = kStageDone;
-    return;
+    return false;
   }
-  scatter(scene, surface.scatter, rng);
+  return true;
 }
 
 // Where the path's own ray is over, and in which medium; kNoMedium: on a surface, or nowhere.
@@ -216,15 +230,20 @@ void stageEnd(ScenePtr scene, inout Rng rng) {
   }
   if (shadow) {
     stageShadow(scene, through, rng);
-  } else if (medium != kNoMedium) {
-    noWalk();
-    arriveInMedium(scene, t, medium, rng);
+    return;
+  }
+  noWalk();
+  ScatterPoint vertex;
+  bool scatters = false;
+  if (medium != kNoMedium) {
+    scatters = arriveInMedium(scene, t, medium, vertex);
   } else if (onSurface) {
-    noWalk();
-    arriveOnSurface(scene, hit, through, rng);
+    scatters = arriveOnSurface(scene, hit, through, vertex);
   } else {
-    noWalk();
     escape(scene);
+  }
+  if (scatters) { // one place for media and surfaces: it is the most code
+    scatter(scene, vertex, rng);
   }
 }
 

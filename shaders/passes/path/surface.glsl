@@ -181,6 +181,7 @@ SurfaceVertex surfaceVertex(ScenePtr scene, HitAttributes hit) {
   // Opaque surfaces are the same from both sides: their frame is turned to the path.
   const bool turned = !transmits && !front;
   vertex.scatter.place = hit.place;
+  vertex.scatter.before = placeBefore(scene, hit);
   if (turned) {
     vertex.scatter.place.normal = -hit.place.normal;
   }
