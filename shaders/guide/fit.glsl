@@ -41,7 +41,7 @@ void fitAdd(GuidePtr guide, inout ChainState state, FitSample taken, float part,
 // that there are hardly explain it.
 void fitCell(GuidePtr guide, uint cell, uint count, FitSample taken, float xi) {
   const uint first = cell * kGuideStates;
-  const float rate = max(1.0 / float(count), guide.at[0].leastRate);
+  const float rate = max(1.0 / float(max(count, 1u)), guide.at[0].leastRate); // 0: just evicted
   const vec3 direction = normalize(taken.target - taken.point);
   float densities[kMostLobes];
   float sum = 0.0;

@@ -88,7 +88,9 @@ GuideView viewScreenChain(GuidePtr guide, uint place, vec3 point, vec3 horizon) 
   }
   view.fingerprint = max(pcg4d(uvec4(place)).x, 1u);
   float strongest = 0.0;
-  viewState(guide, view, chain.state, point, horizon, strongest);
+  if (chain.score > kLeastChainWeight) {
+    viewState(guide, view, chain.state, point, horizon, strongest);
+  }
   view.share = view.states > 0u ? guide.at[0].scatterShare : 1.0;
   return view;
 }

@@ -8,10 +8,10 @@ namespace {
 // a factor of all lengths.
 constexpr Variation kVariations[] = {
     {"guide.score", "cache"},
-    {"guide.loads", "2"},
+    {"guide.loads", "1"},
     {"guide.states", "1"},
-    {"guide.states", "4"},
-    {"guide.states", "16"},
+    {"guide.states", "2"},
+    {"guide.states", "8"},
     {"guide.fit", "false"},
     {"guide.newborn_share", "0.02"},
     {"guide.newborn_share", "0.3"},

@@ -11,13 +11,14 @@ namespace {
 
 /// What another layout of cells or of this file changes.
 constexpr std::uint64_t kLayout = 0x73'6e69'6168 + (std::uint64_t(sizeof(interop::GuideCell)) << 40) +
-                                  (std::uint64_t(sizeof(interop::ChainState)) << 48);
+                                  (std::uint64_t(sizeof(interop::ChainState)) << 48) +
+                                  (std::uint64_t(sizeof(interop::RadianceCell) + sizeof(interop::ScreenChain)) << 56);
 
 struct Header {
   std::uint64_t layout = kLayout;
   StoreSize size;
   std::uint32_t round = 0;
-  std::uint32_t cells = 0; ///< that follow, each with its index and states; then those of the cache
+  std::uint32_t cells = 0; ///< that follow, each with its index and states; then those of the cache, then all of the screen
   std::uint32_t radiance = 0;
 };
 
@@ -87,7 +88,7 @@ std::vector<std::byte> packStore(const StoreContent& content) {
   header.cells = cells.takenCount();
   header.radiance = radiance.takenCount();
   Writer writer(sizeof(header) + header.cells * (sizeof(std::uint32_t) + cells.cellBytes + stateBytes) +
-                header.radiance * (sizeof(std::uint32_t) + radiance.cellBytes));
+                header.radiance * (sizeof(std::uint32_t) + radiance.cellBytes) + content.screen.size());
   writer.put(&header, sizeof(header));
   for (std::uint32_t i = 0; i < cells.count(); ++i) {
     if (cells.taken(i)) {
@@ -102,6 +103,7 @@ std::vector<std::byte> packStore(const StoreContent& content) {
       writer.put(content.radiance.data() + i * radiance.cellBytes, radiance.cellBytes);
     }
   }
+  writer.put(content.screen.data(), content.screen.size());
   return writer.take();
 }
 
@@ -131,6 +133,8 @@ StoreContent unpackStore(std::span<const std::byte> bytes) {
     reader.check(index < header.size.radiance);
     reader.get(content.radiance.data() + index * sizeof(interop::RadianceCell), sizeof(interop::RadianceCell));
   }
+  content.screen.resize(header.size.screen * sizeof(interop::ScreenChain));
+  reader.get(content.screen.data(), content.screen.size());
   reader.checkEnd();
   return content;
 }

@@ -6,8 +6,9 @@
 namespace tyndall::render {
 namespace {
 
-/// Without an order, for each pixel: most vertices find nothing, and what does not fit teaches nothing.
-constexpr std::uint32_t kPlaces = 16;
+/// Without an order, for each pixel: most vertices find nothing, and what does not fit teaches nothing. A full log of
+/// 262,144 pixels is then one dispatch on every device: 65,535 groups are guaranteed.
+constexpr std::uint32_t kPlaces = 15;
 
 constexpr std::uint32_t kAllKinds = 0xffffffffu;
 constexpr std::uint32_t kOfDrawnStates = 1u << interop::kUpdateSample | 1u << interop::kUpdateMiss;

@@ -22,7 +22,9 @@ struct GuidePlan {
   std::optional<scene::Camera> before{}; ///< of the frame before, in whose picture the store's chains lie
   bool deterministic = false;            ///< the store is written in a fixed order; nothing is decided by time
 
-  bool ordered() const { return deterministic && settings.learn; }
+  bool ordered() const {
+    return deterministic && settings.learn && settings.preset != scene::Integrator::ScreenChains;
+  }
 };
 
 /// Counters over all dispatches so far.

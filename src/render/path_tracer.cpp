@@ -13,7 +13,7 @@ namespace {
 constexpr std::uint32_t kCastSteps = 16;
 /// Of the picture, for timing: they fill a GPU for some milliseconds.
 constexpr std::size_t kProbePixels = 65536;
-/// Random numbers that no picture is likely to draw: a guided probe teaches the store.
+/// Random numbers that no picture is likely to draw: a guided probe may teach the store.
 constexpr std::uint32_t kProbeSeed = 0xb5297a4du;
 
 } // namespace

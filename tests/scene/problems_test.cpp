@@ -225,8 +225,8 @@ TEST(SceneProblems, Lights) {
 
 TEST(SceneProblems, SettingsOfGuiding) {
   const std::vector<Malformed> cases{
-      {R"("guide": {"loads": @3})",
-       "guide.loads: makes 24 lobes, 3 loads times 8 states, but 16 is the most; take at most 2 loads or 5 states"},
+      {R"("guide": {"loads": @5})",
+       "guide.loads: makes 20 lobes, 5 loads times 4 states, but 16 is the most; take at most 4 loads or 3 states"},
       {R"("guide": {"loads": @5, "states": 4})", "guide.loads: makes 20 lobes"},
       {R"("guide": {"loads": @16, "states": 16})", "take at most 1 loads or 1 states"},
       {R"("render": {"integrator": "mcpg-paper"}, "guide": {"states": @4})", "guide.states: makes 20 lobes, 5 loads times 4"},

@@ -112,7 +112,7 @@ bool runStage(uvec2 pixel, inout Rng rng) {
 
 void beginPath(uint slot) {
   path.slot = slot;
-  if (kGuideView) {
+  if (kGuideView && io.resume == 0u) {
     io.views.at[slot] = kNoView;
   }
   path.sampleIndex = 0u;
