@@ -62,6 +62,11 @@ Lobe chainLobe(GuidePtr guide, ChainState state, vec3 point) {
   return Lobe(offset * inversesqrt(squared), kappa, state.weight, state.weight * vmfPeak(kappa));
 }
 
+// Whether directions may be drawn from it. `horizon`: the normal that lobes must lie above, 0: any will do.
+bool lobeServes(Lobe lobe, vec3 horizon) {
+  return lobe.peak > 0.0 && isFinite(lobe.peak) && (horizon == vec3(0.0) || dot(horizon, lobe.mu) > 0.0);
+}
+
 // The target's place at the frame's time.
 void moveTarget(GuidePtr guide, inout ChainState state) {
   state.target += clamp(guide.at[0].time - state.time, 0.0, guide.at[0].mostTime) * chainVelocity(state);

@@ -40,7 +40,7 @@ bool mixtureHolds() { return mixture.weightSum > 0.0 && isFinite(mixture.weightS
 
 // Takes a lobe in as the i-th; `place`: of its state. `horizon`: see loadMixture.
 void addLobe(uint i, Lobe lobe, uint place, vec3 horizon) {
-  if (!(lobe.peak > 0.0) || !isFinite(lobe.peak) || (horizon != vec3(0.0) && dot(horizon, lobe.mu) <= 0.0)) {
+  if (!lobeServes(lobe, horizon)) {
     return;
   }
   mixture.lobes[i] = lobe;
@@ -122,7 +122,7 @@ void loadMixture(GuidePtr guide, vec3 point, vec3 horizon, vec3 facing, inout Rn
       }
       ++found;
     }
-    if (kGuideShare && cell != kNoCell && (mixture.cell == kNoCell || rngFloat(rng) * float(found) < 1.0)) {
+    if (kGuideShare && !kGuideFit && cell != kNoCell && (mixture.cell == kNoCell || rngFloat(rng) * float(found) < 1.0)) {
       mixture.cell = cell;
     }
     [[unroll]] for (uint i = 0u; i < kGuideStates; ++i) {

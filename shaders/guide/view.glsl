@@ -46,7 +46,7 @@ void viewState(GuidePtr guide, inout GuideView view, ChainState state, vec3 poin
     moveTarget(guide, state);
   }
   const Lobe lobe = chainLobe(guide, state, point);
-  if (!(lobe.peak > 0.0) || !isFinite(lobe.peak) || (horizon != vec3(0.0) && dot(horizon, lobe.mu) <= 0.0)) {
+  if (!lobeServes(lobe, horizon)) {
     return;
   }
   ++view.states;

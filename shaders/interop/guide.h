@@ -163,7 +163,7 @@ struct Guide {
   uint fitSamples;     // of a fitted cell before it is read
   float forgetBelow;   // a miss is a score below this part of the state's weight
   float forgetRate;    // of the weight that a miss takes away, (0, 1]
-  float radianceLimit; // a sample of the cache counts for at most this many times the mean
+  float radianceLimit; // a sample of the cache or of a fitted cell counts for at most this many times the mean
   float time;          // of the frame [s]
   float frameTime;     // since the frame before [s]
   float mostTime;      // a target is moved ahead for at most this long [s]

@@ -55,20 +55,7 @@ protected:
 };
 
 void Guiding::killed(const std::string& options, const std::string& checkpoint, int saves) const {
-  std::vector<std::string> words = wordsOf("render fog.json " + options, "");
-  words.insert(words.begin(), TYNDALL_PROGRAM);
-  std::vector<char*> arguments;
-  for (std::string& word : words) {
-    arguments.push_back(word.data());
-  }
-  arguments.push_back(nullptr);
-  const pid_t child = ::fork();
-  if (child == 0) {
-    if (::chdir(folder_.path().c_str()) == 0) {
-      ::execv(arguments.front(), arguments.data());
-    }
-    ::_exit(127);
-  }
+  const pid_t child = startProgram(wordsOf("render fog.json " + options, ""), folder_.path());
   fs::path last = companion(checkpoint);
   int status = 0;
   while (saves > 0 && ::waitpid(child, &status, WNOHANG) == 0) {

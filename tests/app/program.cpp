@@ -80,6 +80,23 @@ Outcome runProgram(const std::vector<std::string>& arguments, const fs::path& fo
   return outcome;
 }
 
+pid_t startProgram(std::vector<std::string> arguments, const std::filesystem::path& folder) {
+  arguments.insert(arguments.begin(), TYNDALL_PROGRAM);
+  std::vector<char*> words;
+  for (std::string& argument : arguments) {
+    words.push_back(argument.data());
+  }
+  words.push_back(nullptr);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    if (::chdir(folder.c_str()) == 0) {
+      ::execv(words.front(), words.data());
+    }
+    ::_exit(127);
+  }
+  return child;
+}
+
 std::vector<std::string> wordsOf(const std::string& line, const fs::path& inputs) {
   const std::string placeholder = "{in}";
   std::vector<std::string> words;

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <sys/types.h>
+
 namespace tyndall::test {
 
 /// How a run of the program ended.
@@ -21,6 +23,9 @@ inline constexpr int kTimeoutSeconds = 30;
 /// Runs the built program in `folder`. @param environment additional "NAME=value" entries.
 Outcome runProgram(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
                    const std::vector<std::string>& environment = {});
+
+/// Starts the built program in `folder` and leaves it running; for waitpid.
+pid_t startProgram(std::vector<std::string> arguments, const std::filesystem::path& folder);
 
 /// Words of a command line; {in} becomes the path of `inputs`. No quoting.
 std::vector<std::string> wordsOf(const std::string& line, const std::filesystem::path& inputs);

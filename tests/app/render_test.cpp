@@ -49,20 +49,7 @@ std::vector<std::string> differences(const fs::path& a, const fs::path& b) {
 
 /// Starts the program and ends it with `signal` after a while. @return its exit status as waitpid gives it.
 int interrupted(const TemporaryFolder& folder, const std::string& line, int signal, std::chrono::milliseconds after) {
-  std::vector<std::string> words = wordsOf("render " + line, kRoot);
-  words.insert(words.begin(), TYNDALL_PROGRAM);
-  std::vector<char*> arguments;
-  for (std::string& word : words) {
-    arguments.push_back(word.data());
-  }
-  arguments.push_back(nullptr);
-  const pid_t child = ::fork();
-  if (child == 0) {
-    if (::chdir(folder.path().c_str()) == 0) {
-      ::execv(arguments.front(), arguments.data());
-    }
-    ::_exit(127);
-  }
+  const pid_t child = startProgram(wordsOf("render " + line, kRoot), folder.path());
   std::this_thread::sleep_for(after);
   ::kill(child, signal);
   int status = 0;
