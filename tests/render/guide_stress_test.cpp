@@ -147,13 +147,15 @@ PathScene lampsAfter(int steps) {
   return test;
 }
 
-/// Farthest that a target lies from where either lamp has been.
+/// Farthest that a target lies from the rectangle between the lamps' paths: a state that serves both lamps aims at a mean
+/// of points on the two.
 double farthestFromPaths(const std::vector<interop::ChainState>& states, int steps) {
   double worst = 0.0;
   for (const interop::ChainState& state : states) {
     const glm::dvec3 target(state.target);
+    const double x = std::clamp(target.x, -kSide, kSide);
     const double z = std::clamp(target.z, -0.1, -0.1 + kStep * steps);
-    worst = std::max(worst, glm::length(target - glm::dvec3(target.x < 0.0 ? -kSide : kSide, 0.3, z)));
+    worst = std::max(worst, glm::length(target - glm::dvec3(x, 0.3, z)));
   }
   return worst;
 }
