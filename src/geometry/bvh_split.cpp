@@ -12,7 +12,7 @@ namespace tyndall::geometry {
 namespace {
 
 constexpr std::size_t kBins = 16;
-constexpr std::uint32_t kUsualLeaf = 4; // measured: `tyndall_bench rays`
+constexpr std::uint32_t kUsualLeaf = 4; // measured: `tyndall_microbench rays`
 constexpr double kNodeCost = 2.0;       // of a step into a node, in tests of a primitive; measured as well, and flat
 constexpr std::uint32_t kSerialCount = 4096; // references below which a task costs more than it gains
 
