@@ -2,6 +2,7 @@
 #include "gpu/kernel.h"
 
 #include "base/error.h"
+#include "gpu/specialise.h"
 #include "gpu/spirv.h"
 #include "gpu/vulkan_impl.h"
 
@@ -65,7 +66,7 @@ struct Kernel::Impl {
 
 Kernel::Kernel(const Device& device, std::span<const std::uint32_t> spirv, std::span<const SpecEntry> spec,
                const AtlasImages& images, const AccelerationStructure* rays)
-    : impl_(std::make_unique<Impl>()), spirvBytes_(spirv.size_bytes()) {
+    : impl_(std::make_unique<Impl>()) {
   const SpirvInfo info = readSpirv(spirv);
   workgroupSize_ = info.workgroupSize;
   Device::Impl& owner = device.impl();
@@ -82,17 +83,10 @@ Kernel::Kernel(const Device& device, std::span<const std::uint32_t> spirv, std::
   const vk::PushConstantRange push(vk::ShaderStageFlagBits::eCompute, 0, kPushBytes);
   impl_->layout = vk::raii::PipelineLayout(owner.device, {{}, *owner.setLayout, push});
 
-  std::vector<vk::SpecializationMapEntry> entries;
-  std::vector<std::uint32_t> values;
-  for (const SpecEntry& entry : spec) {
-    entries.emplace_back(entry.id, static_cast<std::uint32_t>(values.size() * 4), 4);
-    values.push_back(entry.bits);
-  }
-  const vk::SpecializationInfo specialization(static_cast<std::uint32_t>(entries.size()), entries.data(),
-                                              values.size() * 4, values.data());
-  const vk::raii::ShaderModule shader(owner.device, {{}, spirv.size_bytes(), spirv.data()});
-  const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *shader, "main",
-                                                &specialization);
+  const std::vector<std::uint32_t> words = specialiseOnce(spirv, spec, owner.cacheFile.parent_path());
+  spirvBytes_ = words.size() * sizeof(std::uint32_t);
+  const vk::raii::ShaderModule shader(owner.device, {{}, spirvBytes_, words.data()});
+  const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *shader, "main");
   impl_->pipeline =
       vk::raii::Pipeline(owner.device, owner.cache, vk::ComputePipelineCreateInfo({}, stage, *impl_->layout));
 }

@@ -6,6 +6,7 @@
 
 // Needs <cstdint> before it.
 #include "kernels/doubling.h"
+#include "kernels/pushes_too_much.h"
 
 #include <gtest/gtest.h>
 
@@ -94,13 +95,11 @@ TEST(Buffer, AddressZeroWithoutElements) {
   EXPECT_EQ(buffer.ptr().address, 0u);
 }
 
-/// A misuse that the layer must report: push constants beyond what the shader's layout has room for would not do, so
-/// a kernel is given a specialization constant twice.
+/// A misuse that the layer must report.
 TEST(Validation, ReportsAPlantedMisuse) {
   const gpu::Device device(gpu::DeviceOptions{.select = {}, .validation = true, .pipelineCache = {}});
   EXPECT_TRUE(device.messages().empty());
-  const std::vector<gpu::SpecEntry> twice{{0, gpu::specBits(1.0f)}, {0, gpu::specBits(2.0f)}};
-  const gpu::Kernel kernel(device, k_doubling_spirv, twice);
+  const gpu::Kernel kernel(device, k_pushes_too_much_spirv, {});
   EXPECT_FALSE(device.messages().empty());
 }
 

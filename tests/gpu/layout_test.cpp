@@ -143,9 +143,9 @@ std::map<std::string, Offsets> hostOffsets() {
         AT(GuideView, direction), AT(GuideView, cosine), AT(GuideView, evidence), AT(GuideView, share)}},
       {"PathInputs",
        {AT(PathInputs, scene), AT(PathInputs, pixels), AT(PathInputs, sums), AT(PathInputs, suspendedIn),
-        AT(PathInputs, suspendedOut), AT(PathInputs, counters), AT(PathInputs, guide), AT(PathInputs, views), AT(PathInputs, count),
-        AT(PathInputs, firstSample), AT(PathInputs, sampleCount), AT(PathInputs, seed), AT(PathInputs, stepBound),
-        AT(PathInputs, stageCost), AT(PathInputs, resume)}},
+        AT(PathInputs, suspendedOut), AT(PathInputs, counters), AT(PathInputs, guide), AT(PathInputs, views),
+        AT(PathInputs, count), AT(PathInputs, firstSample), AT(PathInputs, sampleCount), AT(PathInputs, seed),
+        AT(PathInputs, stepBound), AT(PathInputs, stageCost), AT(PathInputs, resume)}},
   };
 }
 
