@@ -4,7 +4,9 @@
 #define TYNDALL_CORE_RNG_GLSL
 
 struct Rng {
-  uvec4 state; // of xoshiro128++, never all zero
+  uvec4 state;  // of xoshiro128++, never all zero
+  uvec3 queue;  // words that are drawn first,
+  uint queued;  // ... as many of them; 0 where nobody queues any
 };
 
 /// pcg4d, a bijection of 128 bits. [Jarzynski20] "Hash Functions for GPU Rendering", JCGT 9(3), listing of pcg4d.
@@ -26,6 +28,7 @@ uvec4 pcg4d(uvec4 v) {
 /// one. A bijection, so that distinct arguments give distinct states.
 Rng rngSeed(uvec2 pixel, uint sampleIndex, uint seed) {
   Rng rng;
+  rng.queued = 0u;
   rng.state = pcg4d(pcg4d(uvec4(pixel, sampleIndex, seed)));
   if (rng.state == uvec4(0u)) {
     rng.state.x = 1u; // the one state that xoshiro cannot leave
@@ -34,6 +37,13 @@ Rng rngSeed(uvec2 pixel, uint sampleIndex, uint seed) {
 }
 
 uint rotateLeft(uint x, uint count) { return (x << count) | (x >> (32u - count)); }
+
+/// What the next draws give, in place of the stream's own numbers; each must be uniform over all 32-bit values. Whoever
+/// queues empties the queue when what it was for is over.
+void rngQueue(inout Rng rng, uvec3 words, uint count) {
+  rng.queue = words;
+  rng.queued = count;
+}
 
 /// Uniform over all 32-bit values. xoshiro128++ 1.0, [Blackman21] "Scrambled Linear Pseudorandom Number Generators".
 uint rngUint(inout Rng rng) {
@@ -55,7 +65,15 @@ float unitFloat(uint word) {
 }
 
 /// Uniform in (0, 1).
-float rngFloat(inout Rng rng) { return unitFloat(rngUint(rng)); }
+float rngFloat(inout Rng rng) {
+  if (rng.queued > 0u) {
+    const uint word = rng.queue.x;
+    rng.queue = rng.queue.yzx;
+    --rng.queued;
+    return unitFloat(word);
+  }
+  return unitFloat(rngUint(rng));
+}
 
 vec2 rngFloat2(inout Rng rng) {
   const float first = rngFloat(rng);

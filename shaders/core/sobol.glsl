@@ -69,6 +69,30 @@ uint sobolIndex(Sobol s, uint dimension) {
   return group == 0u ? s.index : nestedScramble(s.index, sobolWords(s, group, kSobolPoints).w >> 16u);
 }
 
+/// First four binary digits of coordinate `place` of point `index` of the net of dimensions 0, 1 and 2.
+uint sobolNetDigits(uint index, uint place, uint nodeBits) {
+  const uint directions = sobolDirections(place);
+  uint digits = 0u;
+  for (uint bit = 0u; bit < 4u; ++bit) {
+    digits ^= ((index >> bit) & 1u) * ((directions >> (4u * bit)) & 15u);
+  }
+  return nestedScramble(digits, nodeBits);
+}
+
+/// A point of a (0, 4, 3)-net of its own, as words that are uniform over all 32-bit values: for unitFloat. Nets of
+/// different names are independent, but that points of one sample belong together.
+uvec3 sobolNet(Sobol s, uint name) {
+  const uint kApartFromGroups = 0x4e657400u;
+  const uvec4 set = sobolWords(s, kApartFromGroups + name, kSobolPoints);
+  const uvec4 below = sobolWords(s, kApartFromGroups + name, s.index);
+  const uint index = nestedScramble(s.index, set.w >> 16u);
+  uvec3 words;
+  for (uint place = 0u; place < 3u; ++place) {
+    words[place] = (sobolNetDigits(index, place, set[place] >> 16u) << 28u) | (below[place] >> 4u);
+  }
+  return words;
+}
+
 /// Coordinate of the point, uniform over the multiples of 2^-24 in [0, 1). `dimension` < kSobolDimensions; cheapest
 /// where it is a constant.
 float sobolFloat(Sobol s, uint dimension) {

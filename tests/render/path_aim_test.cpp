@@ -45,7 +45,7 @@ double noise(const Moments& moments) {
 
 TEST(PathAim, ChangesTheNoiseAlone) {
   const PathScene test = lampsInMist();
-  const Moments aimed = renderMoments(test.scene, test.volumes, aiming(true, 1));
+  const Moments aimed = renderMoments(test.scene, test.volumes, aiming(true, 2001));
   const Moments plain = renderMoments(test.scene, test.volumes, aiming(false, 501));
   EXPECT_AGREES(tileTest(aimed, plain));
   EXPECT_LT(noise(aimed), 0.5 * noise(plain));

@@ -11,7 +11,7 @@
 /// The points of shaders/core/sobol.glsl, as the device computes them and as their definition has them.
 namespace tyndall::test::sobol {
 
-enum Mode : std::uint32_t { Coordinates, Indices, Directions };
+enum Mode : std::uint32_t { Coordinates, Indices, Directions, Nets };
 /// Bugs of sobol_probe.comp.
 enum Planted : std::uint32_t {
   None,

@@ -6,7 +6,7 @@
 #include "interop/basic.h"
 
 layout(local_size_x = 64) in;
-layout(constant_id = 0) const uint kMode = 0u;    // 0: coordinates, 1: indices as each group takes them, 2: directions
+layout(constant_id = 0) const uint kMode = 0u;    // 0: coordinates, 1: indices as each group takes them, 2: directions, 3: nets
 layout(constant_id = 1) const uint kPlanted = 0u; // enum Planted of sobol_test.cpp
 layout(push_constant, scalar) uniform Push {
   uintPtr words; // coordinates as the bits of a float
@@ -54,6 +54,8 @@ void writePoint(uint set, uint point) {
       word = floatBitsToUint(planted(s, dimension, pixel, sampleIndex, seed));
     } else if (kMode == 1u) {
       word = sobolIndex(s, dimension);
+    } else if (kMode == 3u) { // three dimensions a net, as bits of a float like the coordinates
+      word = floatBitsToUint(unitFloat(sobolNet(s, kPlanted == 5u ? 0u : dimension / 3u)[dimension % 3u]));
     } else {
       word = sobolDirections(dimension);
     }

@@ -94,6 +94,36 @@ TEST(Sobol, EveryBatchIsANet) {
   }
 }
 
+constexpr std::uint32_t kTwoNets = 6; ///< dimensions
+
+/// In sixteenths, of one point of every set: how often dimensions a and b give each pair of values.
+double pairPValue(const Draw& points, std::size_t point, std::size_t a, std::size_t b) {
+  std::vector<std::uint64_t> counts(256, 0);
+  for (std::size_t set = 0; set < points.sets(); ++set) {
+    ++counts[points.digits(set, point, a, 0, 4) * 16 + points.digits(set, point, b, 0, 4)];
+  }
+  return uniformPValue(counts);
+}
+
+/// What the path's events draw from: nets each for itself, and independent of each other within a sample, which is what
+/// means rest on.
+TEST(Sobol, NetsOfDifferentNamesAreNetsAndIndependent) {
+  const Draw points = draw({.mode = Nets, .dimensions = kTwoNets});
+  const Draw oneNet = draw({.mode = Nets, .planted = OneScramble, .dimensions = kTwoNets});
+  EXPECT_EQ(notNets(points, {0, 1, 2}, 4, 0), 0.0);
+  EXPECT_EQ(notNets(points, {3, 4, 5}, 4, 0), 0.0);
+  EXPECT_GT(notNets(points, {0, 1, 3}, 4, 0), 0.5) << "they share no strata";
+  constexpr double kLeast = 1e-6; // of 60 p-values
+  for (const std::size_t point : {0u, 5u, 13u, 15u}) {
+    for (std::size_t a = 0; a < kTwoNets; ++a) {
+      for (std::size_t b = a + 1; b < kTwoNets; ++b) {
+        EXPECT_GT(pairPValue(points, point, a, b), kLeast) << point << ": " << a << ", " << b;
+      }
+    }
+    EXPECT_LT(pairPValue(oneNet, point, 0, 3), kLeast);
+  }
+}
+
 /// Mean of f over the first `count` points of each set.
 std::vector<double> means(const Draw& points, std::size_t count, const std::function<double(const double*)>& f) {
   std::vector<double> result;

@@ -123,6 +123,9 @@ struct PathState {
   vec3 pending;          // what the shadow ray's transmittance multiplies
   uint hero;
   uint events;           // scattering events so far
+  uint strataSeed;       // of the batch's stratified sets (strata.glsl)
+  uint flightWord;       // number for the next flight of the path's own ray,
+  uint flightFresh;      // ... 1: not used yet
   uint emissive;         // which emissive medium is collected along the ray
   uint target;           // what the ray in flight is for: kTarget*, or the emissive medium that it was drawn for
   float targetPdf;       // probability of choosing that medium

@@ -5,6 +5,7 @@
 
 #include "passes/path/aim.glsl"
 #include "passes/path/records.glsl"
+#include "passes/path/strata.glsl"
 #include "passes/path/surface.glsl"
 
 const uint kStageSample = 0u;
@@ -57,14 +58,23 @@ void castPath(PathRay ray, float travelled) {
 
 void stageSample(ScenePtr scene, uvec2 pixel, uint seed, uint sampleIndex, inout Rng rng) {
   rng = rngSeed(pixel, sampleIndex, seed);
-  const vec2 raster = (vec2(pixel) + (kGuideView ? vec2(0.5) : rngFloat2(rng))) / vec2(scene.at[0].imageSize);
+  path.events = 0u;
+  if (path.sampleIndex == 0u || sampleIndex % kSobolPoints == 0u) {
+    path.strataSeed = sobolBegin(pixel, sampleIndex, seed).seed;
+  }
+  const uvec3 place = strata(0u);
+  path.flightWord = place.z;
+  path.flightFresh = 1u;
+  const vec2 within = kGuideView ? vec2(0.5) : vec2(unitFloat(place.x), unitFloat(place.y));
+  const vec2 raster = (vec2(pixel) + within) / vec2(scene.at[0].imageSize);
   Camera camera = scene.at[0].camera;
   const vec3 offset = raster.x * camera.rasterX + raster.y * camera.rasterY;
   PathRay ray;
   ray.origin = kOrthographic ? camera.origin + offset : camera.origin;
   ray.direction = kOrthographic ? camera.corner : camera.corner + offset;
+  const uvec3 second = kLens || kChromatic ? strata(1u) : uvec3(0u);
   if (kLens && !kGuideView) {
-    const vec2 lens = uniformDiscSample(rngFloat2(rng));
+    const vec2 lens = uniformDiscSample(vec2(unitFloat(second.x), unitFloat(second.y)));
     const vec3 shift = lens.x * camera.lensX + lens.y * camera.lensY;
     ray.origin += shift;
     ray.direction = ray.direction * camera.focusDistance - shift;
@@ -80,8 +90,7 @@ void stageSample(ScenePtr scene, uvec2 pixel, uint seed, uint sampleIndex, inout
   path.nextCast = 0u;
   path.recordCount = 0u;
   path.recordStage = kRecordClosed;
-  path.hero = kChromatic ? min(uint(rngFloat(rng) * 3.0), 2u) : 0u;
-  path.events = 0u;
+  path.hero = kChromatic ? min(uint(unitFloat(second.z) * 3.0), 2u) : 0u;
   path.radiance = vec3(0.0);
   path.background = vec3(0.0);
   path.transmittance = 0.0;
@@ -96,7 +105,10 @@ void beginFlight(ScenePtr scene, inout Rng rng) {
   path.collisionT = path.hit.t;
   path.collisionMedium = kNoMedium;
   if (kHomogeneous) {
+    rngQueue(rng, uvec3(path.flightWord), path.flightFresh);
+    path.flightFresh = 0u; // a ray that goes on behind a boundary has told that it is not stopped before
     path.collisionT = flightCollision(scene, path.ray, path.hit.t, path.hero, rng, path.collisionMedium);
+    rng.queued = 0u;
   }
   walkRay(scene, path.collisionT, kWalkCollide);
   path.stage = kStageArrive;

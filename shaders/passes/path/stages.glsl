@@ -71,7 +71,15 @@ void drawDirection(ScenePtr scene, ScatterPoint vertex, inout Rng rng) {
     path.throughput = vec3(0.0);
     return;
   }
+  path.flightFresh = 0u;
+  if (stratified()) {
+    const uvec3 words = strata(1u);
+    rngQueue(rng, words, 2u);
+    path.flightWord = words.z;
+    path.flightFresh = 1u;
+  }
   const DirectionSample direction = directionSample(vertex, rng);
+  rng.queued = 0u;
   const ScatterSample drawn = direction.drawn;
   if (kGuide && kGuideLearn && !scatterIsDelta(vertex)) {
     recordVertex(io.guide, vertex, direction, path.throughput);
@@ -111,7 +119,11 @@ void scatter(ScenePtr scene, ScatterPoint vertex, inout Rng rng) {
     prepareDirection(io.guide, vertex, rng);
   }
   if ((kEmitters || kDistantDeltas || kDistantAreas) && !scatterIsDelta(vertex)) {
+    if (stratified()) {
+      rngQueue(rng, strata(0u), 3u);
+    }
     request = lightRequest(scene, vertex, rng);
+    rng.queued = 0u;
   }
   drawDirection(scene, vertex, rng);
   const vec3 onward = path.throughput;

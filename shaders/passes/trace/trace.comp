@@ -110,6 +110,7 @@ void main() {
   }
   Rng rng;
   rng.state = path.rng;
+  rng.queued = 0u;
   const uint packed = io.pixels.at[path.slot];
   const uvec2 pixel = uvec2(packed & 0xffffu, packed >> 16);
   WalkCounts counts = WalkCounts(0u, 0u, io.stepBound);
