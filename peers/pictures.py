@@ -51,6 +51,31 @@ def read_exr(path):
     return channels
 
 
+def write_exr(path, width, height, channels):
+    """Scanlines of 32-bit floats, uncompressed. `channels`: name -> array of floats, row by row from the top."""
+
+    def attribute(name, kind, value):
+        return name.encode() + b"\0" + kind.encode() + b"\0" + struct.pack("<i", len(value)) + value
+
+    names = sorted(channels)
+    listed = b"".join(name.encode() + b"\0" + struct.pack("<i4B2i", 2, 0, 0, 0, 0, 1, 1) for name in names)
+    window = struct.pack("<4i", 0, 0, width - 1, height - 1)
+    head = b"\x76\x2f\x31\x01" + struct.pack("<i", 2)
+    head += attribute("channels", "chlist", listed + b"\0") + attribute("compression", "compression", b"\0")
+    head += attribute("dataWindow", "box2i", window) + attribute("displayWindow", "box2i", window)
+    head += attribute("lineOrder", "lineOrder", b"\0") + attribute("pixelAspectRatio", "float", struct.pack("<f", 1))
+    head += attribute("screenWindowCenter", "v2f", struct.pack("<2f", 0, 0))
+    head += attribute("screenWindowWidth", "float", struct.pack("<f", 1)) + b"\0"
+    row_bytes = 4 * width * len(names)
+    first = len(head) + 8 * height
+    offsets = struct.pack(f"<{height}Q", *(first + y * (8 + row_bytes) for y in range(height)))
+    with open(path, "wb") as file:
+        file.write(head + offsets)
+        for y in range(height):
+            rows = (channels[name][y * width : (y + 1) * width].tobytes() for name in names)
+            file.write(struct.pack("<2i", y, row_bytes) + b"".join(rows))
+
+
 def parse_channels(block):
     """Yields (name, pixel type) of an EXR `chlist`."""
     at = 0
@@ -78,14 +103,15 @@ def grey(path):
     return image["R"], image["A"]
 
 
-def box_filtered(values, size, factor):
-    """Means over squares of factor x factor of a picture of size*factor pixels each way."""
+def box_filtered(values, width, height, factor):
+    """Means over squares of factor x factor of a picture of width*factor x height*factor pixels."""
     if factor == 1:
         return values
-    wide, means = size * factor, array.array("f", bytes(4 * size * size))
-    for y, x in itertools.product(range(size), repeat=2):
-        square = sum(sum(values[row * wide + x * factor :][:factor]) for row in range(y * factor, (y + 1) * factor))
-        means[y * size + x] = square / factor**2
+    wide, means = width * factor, array.array("f", bytes(4 * width * height))
+    for y in range(height):
+        rows = [values[row * wide : (row + 1) * wide] for row in range(y * factor, (y + 1) * factor)]
+        columns = [row[i::factor] for row in rows for i in range(factor)]
+        means[y * width : (y + 1) * width] = array.array("f", (sum(square) / factor**2 for square in zip(*columns)))
     return means
 
 

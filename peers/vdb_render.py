@@ -5,8 +5,12 @@
     python3 peers/vdb_render.py calibrate --tyndall build/release/tyndall
     python3 peers/vdb_render.py compare cloud.vdb --tyndall build/release/tyndall
 
-`calibrate` holds both programs against quadrature on a cube of constant density; `compare` prints the table.
-README.md beside this file says how the two programs' conventions map. Needs Python 3.9 or newer and nothing else.
+    python3 peers/vdb_render.py probe
+    python3 peers/vdb_render.py render FOLDER -o out.exr --setting 2,0.5,0.125,0.001
+
+`probe` and `render`, of what `tyndall export` wrote, are for `tyndall bench`. `calibrate` holds both programs against
+quadrature on a cube of constant density; `compare` prints the table. README.md beside this file says how the two
+programs' conventions map. Needs Python 3.9 or newer and nothing else.
 """
 import argparse
 import dataclasses
@@ -21,8 +25,11 @@ import statistics
 import sys
 
 import box
+import peer
+import vdb_render_scene
 from pictures import Failure, box_filtered, grey, registration, relative_error
 from programs import Setup, Tyndall, run, scene_text, vdb_render_command
+from vdb_render_scene import setting_from
 
 COVERED = 0.01  # a pixel counts where 1 - transmittance is above this, docs/conventions.md
 REFERENCE_SEED = 77777  # no measured run has it
@@ -103,7 +110,7 @@ class Judge:
 
     def errors(self, picture, factor=1):
         """(rRMSE with the reference's own error taken out, relative difference of the means)."""
-        error, mean = relative_error(box_filtered(picture, self.setup.size, factor), self.reference, self.covered)
+        error, mean = relative_error(box_filtered(picture, self.setup.size, self.setup.size, factor), self.reference, self.covered)
         return math.sqrt(max(0.0, error**2 - self.own_error**2)), mean
 
     def march(self, marching, cpu_limit=None):
@@ -243,19 +250,16 @@ def parsed(arguments):
     parser.add_argument("--targets", default=[0.05, 0.01], type=float, nargs="+", help="rRMSE (%(default)s)")
     parser.add_argument("--repeats", type=int, default=5, help="rounds of all contenders (%(default)s)")
     parser.add_argument("--max-spp", type=int, default=256, help="beyond it tyndall is extrapolated (%(default)s)")
-    parser.add_argument("--marching", action="append", type=marching_from, metavar="K,P,S,C",
+    parser.add_argument("--marching", action="append", type=setting_from, metavar="K,P,S,C",
                         help="vdb_render: K x K rays per pixel, -step P -shadowstep S -cutoff C; repeatable (a sweep)")
     parser.add_argument("--work", default="build/peers", type=pathlib.Path, help="folder for files (%(default)s)")
     return parser.parse_args(arguments)
 
 
-def marching_from(text):
-    factor, *rest = text.split(",")
-    step, shadow_step, cutoff = map(float, rest)
-    return int(factor), step, shadow_step, cutoff
-
-
 def main():
+    if sys.argv[1:2] in (["probe"], ["render"]):
+        own = vdb_render_scene
+        return peer.main("vdb_render.py", __doc__, own.add_options, own.probe, own.render)
     options = parsed(sys.argv[1:])
     try:
         for program, option in ((options.tyndall, "--tyndall"), (options.vdb_render, "--vdb-render")):

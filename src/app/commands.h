@@ -16,6 +16,9 @@ void addInfoCommand(CLI::App& app, Action& action);
 void addCheckCommand(CLI::App& app, Action& action);
 void addCompareCommand(CLI::App& app, Action& action);
 void addMergeCommand(CLI::App& app, Action& action);
+void addBenchCommand(CLI::App& app, Action& action);
+void addExportCommand(CLI::App& app, Action& action);
 void addDevicesCommand(CLI::App& app, Action& action);
+void addVerifyCommand(CLI::App& app, Action& action);
 
 } // namespace tyndall::app

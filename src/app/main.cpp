@@ -36,7 +36,8 @@ int run(int argc, char** argv, int& failureCode) {
       "-v,--verbose", [] { spdlog::set_level(spdlog::level::debug); }, "Say more on stderr");
   Action action;
   for (const auto add :
-       {addRenderCommand, addInfoCommand, addCheckCommand, addCompareCommand, addMergeCommand, addDevicesCommand}) {
+       {addRenderCommand, addInfoCommand, addCheckCommand, addCompareCommand, addMergeCommand, addExportCommand,
+        addVerifyCommand, addBenchCommand, addDevicesCommand}) {
     add(app, action);
   }
   try {

@@ -159,23 +159,7 @@ void addWork(CLI::App& command, RenderRequest& request) {
 }
 
 void addScene(CLI::App& command, RenderRequest& request) {
-  command
-      .add_option_function<std::vector<std::string>>(
-          "--set",
-          [&request](const std::vector<std::string>& values) {
-            for (const std::string& value : values) {
-              const std::size_t equals = value.find('=');
-              if (equals == std::string::npos || equals == 0) {
-                fail("--set {}: write a path, = and a value, such as --set film.exposure=1", value);
-              }
-              request.overrides.push_back({value.substr(0, equals), value.substr(equals + 1)});
-            }
-          },
-          "change a value of the scene; can be repeated")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->allow_extra_args(false)
-      ->type_name("path=value");
+  addSet(command, request);
   text(
       command, "--frames", [&request](const std::string& value) { request.frames = volume::parseFrames(value); },
       "frames of a scene that moves, or of a sequence such as smoke_%04d.vdb or smoke_####.vdb", "a-b");
@@ -210,6 +194,26 @@ void addBareVolume(CLI::App& command, RenderRequest& request) {
 }
 
 } // namespace
+
+void addSet(CLI::App& command, RenderRequest& request) {
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--set",
+          [&request](const std::vector<std::string>& values) {
+            for (const std::string& value : values) {
+              const std::size_t equals = value.find('=');
+              if (equals == std::string::npos || equals == 0) {
+                fail("--set {}: write a path, = and a value, such as --set film.exposure=1", value);
+              }
+              request.overrides.push_back({value.substr(0, equals), value.substr(equals + 1)});
+            }
+          },
+          "change a value of the scene; can be repeated")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false)
+      ->type_name("path=value");
+}
 
 std::shared_ptr<RenderRequest> addRenderOptions(CLI::App& app) {
   CLI::App* command = app.add_subcommand("render", "Render a scene (.json) or a volume (.vdb)");

@@ -14,7 +14,7 @@ inline constexpr const char* kShortHelp =
     "  tyndall render scenes/first.json    a scene, as first.exr and first.png\n"
     "  tyndall render cloud.vdb            a volume: framed, lit and exposed by itself\n"
     "\n"
-    "Other commands: info, check, compare, merge, devices.\n"
+    "Other commands: info, check, compare, merge, export, verify, bench, devices.\n"
     "`tyndall COMMAND --help` lists a command's options, `tyndall --help` all commands.\n";
 
 /// What is wrong with the command line that gave `error`, and the fix: the nearest known command or option for one

@@ -13,7 +13,6 @@ namespace {
 using Colour = std::array<const std::vector<float>*, 3>;
 
 constexpr double kCoveredOpacity = 0.01;
-constexpr double kRelMseFloor = 0.01;  // eps of relMSE over the reference's mean
 
 /// Both pictures, channel by channel, and the pixels that count.
 struct Pair {
@@ -48,14 +47,6 @@ std::array<const std::vector<float>*, 3> errorChannels(const Image& image) {
                                                  findChannel(image, "stderr.B")};
   const bool complete = std::ranges::none_of(layer, [](const auto* channel) { return channel == nullptr; });
   return complete ? layer : std::array<const std::vector<float>*, 3>{};
-}
-
-bool coveredAt(const Image& reference, std::size_t pixel) {
-  if (const auto* transmittance = findChannel(reference, "transmittance.Y"); transmittance != nullptr) {
-    return 1.0 - double((*transmittance)[pixel]) > kCoveredOpacity;
-  }
-  const auto* alpha = findChannel(reference, "A");
-  return alpha == nullptr || double((*alpha)[pixel]) > kCoveredOpacity;
 }
 
 void measureDifferences(Comparison& result, const Pair& pair, const Image& reference) {
@@ -161,6 +152,14 @@ TileTest testTiles(const Pair& pair, const Window& window, unsigned tile) {
 }
 
 } // namespace
+
+bool coveredAt(const Image& image, std::size_t pixel) {
+  if (const auto* transmittance = findChannel(image, "transmittance.Y"); transmittance != nullptr) {
+    return 1.0 - double((*transmittance)[pixel]) > kCoveredOpacity;
+  }
+  const auto* alpha = findChannel(image, "A");
+  return alpha == nullptr || double((*alpha)[pixel]) > kCoveredOpacity;
+}
 
 void checkSameShape(const NamedImage& a, const NamedImage& b) {
   const glm::uvec2 sizeA = a.image.displaySize;

@@ -48,6 +48,12 @@ struct Comparison {
   double channelFamilyP = 1.0;       ///< Sidak over the three channels' p
 };
 
+/// eps of relMSE over the mean of the reference.
+inline constexpr double kRelMseFloor = 0.01;
+
+/// Whether a pixel counts in rRMSE: 1 - T > 0.01 in the picture's layer transmittance, else in A, else always.
+bool coveredAt(const Image& image, std::size_t pixel);
+
 struct NamedImage {
   std::string name;
   const Image& image;

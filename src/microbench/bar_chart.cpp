@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace tyndall::microbench {
@@ -20,38 +19,11 @@ constexpr double kTop = 56.0;    ///< title
 constexpr double kBottom = 78.0; ///< numbers, name and note of the axis
 constexpr double kMargin = 16.0;
 constexpr double kTextRight = 190.0;   ///< figures beside the bars
-constexpr double kMostFineTicks = 1.5; ///< decades
-
-/// Told apart by colour-blind eyes too: M. Okabe, K. Ito, Color Universal Design (2008).
-constexpr std::array kColours{"#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00"};
 
 bool drawable(const Bar& bar) { return std::isfinite(bar.value) && bar.value > 0.0; }
 
 bool hasRange(const Bar& bar) {
   return std::isfinite(bar.range.low) && std::isfinite(bar.range.high) && bar.range.low > 0.0;
-}
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char letter : text) {
-    switch (letter) {
-    case '&':
-      result += "&amp;";
-      break;
-    case '<':
-      result += "&lt;";
-      break;
-    case '>':
-      result += "&gt;";
-      break;
-    case '"':
-      result += "&quot;";
-      break;
-    default:
-      result += letter;
-    }
-  }
-  return result;
 }
 
 /// Where things are.
@@ -129,7 +101,7 @@ std::string barText(const Bar& bar, const Layout& layout, double top) {
   const double end = layout.x(bar.value);
   result += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"{}\"/>\n",
                         std::min(one, end), middle - 0.5 * kBar, std::abs(end - one), kBar,
-                        kColours[bar.colour % kColours.size()]);
+                        kSeriesColours[bar.colour % kSeriesColours.size()]);
   std::string figure = shortText(bar.value);
   if (hasRange(bar)) {
     result += whiskerText(bar, layout, middle);
@@ -139,28 +111,6 @@ std::string barText(const Bar& bar, const Layout& layout, double top) {
 }
 
 } // namespace
-
-std::vector<double> logTicks(double low, double high) {
-  const auto first = static_cast<int>(std::floor(std::log10(low)));
-  const auto last = static_cast<int>(std::ceil(std::log10(high)));
-  const bool fine = std::log10(high / low) < kMostFineTicks;
-  std::vector<double> ticks;
-  for (int power = first; power <= last + 1; ++power) {
-    for (const double factor : {1.0, 2.0, 5.0}) {
-      // Positive powers are exact, so 1 is 1.
-      const double decade = power < 0 ? 1.0 / std::pow(10.0, -power) : std::pow(10.0, power);
-      if (fine || factor == 1.0) {
-        ticks.push_back(factor * decade);
-      }
-    }
-  }
-  const auto begin = std::upper_bound(ticks.begin(), ticks.end(), low) - 1;
-  auto end = std::lower_bound(ticks.begin(), ticks.end(), high);
-  if (end == begin) {
-    ++end; // an axis has two ends
-  }
-  return {begin, end + 1};
-}
 
 std::string svgText(const BarChart& chart) {
   const Layout layout = layoutOf(chart);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "bench/svg.h"
 #include "microbench/measure.h"
 
 #include <cstddef>
@@ -28,8 +29,5 @@ struct BarChart {
 
 /// A picture file of its own, without anything from elsewhere.
 std::string svgText(const BarChart& chart);
-
-/// Numbers 1, 2 and 5 times powers of ten, or powers alone where that is enough, from below `low` to above `high`.
-std::vector<double> logTicks(double low, double high);
 
 } // namespace tyndall::microbench

@@ -41,8 +41,6 @@ nlohmann::ordered_json cachesReport(const Session& session);
 nlohmann::ordered_json lanesReport(const Session& session);
 /// Rays per second through surfaces of our own making, beside Embree's where it is installed.
 nlohmann::ordered_json raysReport(const Session& session);
-/// What each feature of pass `path` costs where a scene does not need it: time, module size, compiling; memory.
-nlohmann::ordered_json skipReport(const Session& session);
 /// Variance times time of choosing one of 10 to 10,000 lights by the tree, by power and evenly; ns per choice.
 nlohmann::ordered_json lightsReport(const Session& session);
 /// Samples and rays per second of pass `path`, beside the bare ray cast and the bare lookup.

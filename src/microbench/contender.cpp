@@ -43,10 +43,6 @@ CacheBuild buildSkyCaches(const gpu::Device& device, const gpu_scene::GpuScene& 
 
 } // namespace
 
-double secondsOf(const Cost& cost, const gpu::Device& device) {
-  return device.info().type == "cpu" ? cost.cpu : cost.wall;
-}
-
 CacheBuild buildCaches(const gpu::Device& device, const gpu_scene::GpuScene& gpuScene,
                        const gpu_scene::VolumeSet& volumes, double cacheBytes, std::uint32_t repeats) {
   const render::MarchPlan wanted = render::planMarch(gpuScene);

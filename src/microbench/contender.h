@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "microbench/measure.h"
-#include "microbench/scenes.h"
-#include "microbench/variance.h"
+#include "bench/scenes.h"
+#include "bench/variance.h"
 #include "film/film.h"
+#include "microbench/measure.h"
 #include "render/estimator.h"
 
 #include <map>
@@ -13,9 +13,6 @@
 #include <vector>
 
 namespace tyndall::microbench {
-
-/// What a figure's seconds are: process time on a CPU device, else wall time.
-double secondsOf(const Cost& cost, const gpu::Device& device);
 
 /// Building a scene's light caches alone, memory and pipelines apart.
 struct CacheBuild {

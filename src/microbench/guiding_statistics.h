@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "bench/variance.h"
 #include "microbench/measure.h"
-#include "microbench/variance.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -10,7 +10,6 @@
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
-#include <cstdlib>
 
 namespace tyndall::microbench {
 namespace {
@@ -22,7 +21,6 @@ struct Command {
   const char* help;
   Report report;
   bool readsVolume = true;
-  bool compilesAnew = false; ///< shaders cached by an earlier run would hide what is measured
 };
 
 constexpr Command kCommands[] = {
@@ -33,7 +31,6 @@ constexpr Command kCommands[] = {
     {"rays", "Rays per second through surfaces, beside Embree", raysReport, false},
     {"paths", "Samples and rays per second of paths, beside the bare parts", pathsReport},
     {"lights", "Variance times time of the choice among many lights", lightsReport, false},
-    {"skip", "What each feature of paths costs where a scene does not need it", skipReport, true, true},
 };
 
 void addOptions(CLI::App& app, const Command& command, Options& options) {
@@ -62,9 +59,6 @@ volume::BrickGrid loadedGrid(const Options& options) {
 int run(const Command& command, const Options& options) {
   if (!options.json.empty()) {
     checkWritable(options.json);
-  }
-  if (command.compilesAnew) {
-    setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
   }
   const gpu::Device device({.select = options.device, .validation = false, .pipelineCache = {}});
   const volume::BrickGrid grid = command.readsVolume ? loadedGrid(options) : volume::BrickGrid{};

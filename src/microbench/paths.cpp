@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microbench/ceilings.h"
+#include "bench/ceilings.h"
+#include "bench/path_run.h"
+#include "bench/path_scenes.h"
 #include "microbench/contender.h"
-#include "microbench/path_run.h"
-#include "microbench/path_scenes.h"
 #include "render/path_tracer.h"
 #include "render/pixel_order.h"
 
@@ -52,7 +52,7 @@ struct Ceiling {
 Ceiling ceilingOf(const Session& session, const PathScene& scene, const gpu_scene::GpuScene& gpuScene) {
   Ceiling ceiling;
   if (scene.rays) {
-    const RayRates rates = rayRates(session, *scene.rays);
+    const RayRates rates = rayRates(session.device, *scene.rays, session.options.size, session.options.repeats);
     ceiling.secondsPerSegment = 0.5 / rates.diffuse + 0.5 / rates.shadow;
     ceiling.text =
         fmt::format("bare casts, M per second: {} primary, {} diffuse, {} shadow", shortText(rates.primary * 1e-6),
@@ -60,7 +60,7 @@ Ceiling ceilingOf(const Session& session, const PathScene& scene, const gpu_scen
     ceiling.json = {{"primary", rates.primary}, {"diffuse", rates.diffuse}, {"shadow", rates.shadow}};
   } else {
     constexpr double kMeanStep = 8.0;
-    const Cost rates = bareLookups(session.device, gpuScene, session.options, kMeanStep);
+    const Cost rates = bareLookups(session.device, gpuScene, session.options.size, session.options.repeats, kMeanStep);
     const double rate = secondsOf(rates, session.device);
     ceiling.secondsPerLookup = 1.0 / rate;
     ceiling.text = fmt::format("bare lookups, M per second: {}", shortText(rate * 1e-6));

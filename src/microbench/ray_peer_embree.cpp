@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/error.h"
-#include "microbench/ray_scenes.h"
+#include "microbench/ray_peer.h"
 
 #include <embree3/rtcore.h>
 

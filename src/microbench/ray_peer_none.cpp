@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // In place of ray_peer_embree.cpp where Embree is not installed.
-#include "microbench/ray_scenes.h"
+#include "microbench/ray_peer.h"
 
 namespace tyndall::microbench {
 

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "microbench/ceilings.h"
+#include "bench/ceilings.h"
+#include "bench/scenes.h"
 #include "microbench/commands.h"
 #include "microbench/measure.h"
-#include "microbench/scenes.h"
-#include "kernels/bare_lookup.h"
-#include "passes/bench/bench_io.h"
-#include "render/pixel_order.h"
 #include "render/renderer.h"
 
 #include <fmt/format.h>
@@ -65,30 +62,6 @@ Json printRow(const char* name, const std::vector<Figures>& runs) {
 
 } // namespace
 
-Cost bareLookups(const gpu::Device& device, const gpu_scene::GpuScene& gpuScene, const Options& options,
-                 double meanStep) {
-  const std::array spec{gpu::SpecEntry{0, gpuScene.features().formatMask}};
-  const gpu::Kernel kernel(device, k_bare_lookup_spirv, spec, gpuScene.images());
-  const std::vector<std::uint32_t> order = render::dispatchOrder({glm::uvec2(0), glm::uvec2(options.size)});
-  const gpu::Buffer<std::uint32_t> pixels(device, std::span<const std::uint32_t>(order), gpu::Memory::Host);
-  const gpu::Buffer<float> sums(device, order.size(), gpu::Memory::Host);
-  constexpr std::uint32_t kLookups = 64;
-  const interop::BareLookupInputs inputs{gpuScene.ptr(), pixels.ptr(),
-                                         sums.ptr(),     static_cast<std::uint32_t>(order.size()),
-                                         kLookups,       static_cast<float>(meanStep)};
-  kernel.run(inputs, inputs.count);
-  std::vector<double> wall;
-  std::vector<double> cpu;
-  for (std::uint32_t i = 0; i < options.repeats; ++i) {
-    const Cost cost = costOf([&] { kernel.run(inputs, inputs.count); });
-    wall.push_back(cost.wall);
-    cpu.push_back(cost.cpu);
-  }
-  const auto hits = std::count_if(sums.mapped().begin(), sums.mapped().end(), [](float sum) { return sum != 0.0f; });
-  const double lookups = double(hits) * kLookups;
-  return {lookups / median(wall), lookups / median(cpu)};
-}
-
 Json trackingReport(const Session& session) {
   const Options& options = session.options;
   const gpu::Device& device = session.device;
@@ -111,7 +84,7 @@ Json trackingReport(const Session& session) {
   report.push_back(printRow("weighted walk, majorant grid", runs[0]));
   report.push_back(printRow("delta tracking, majorant grid", runs[1]));
   report.push_back(printRow("delta tracking, one majorant", runs[2]));
-  const Cost ceiling = bareLookups(device, localScene, options, 8.0);
+  const Cost ceiling = bareLookups(device, localScene, options.size, options.repeats, 8.0);
   fmt::print("\nbare lookups along the camera rays: {:.1f} M per second, {:.1f} M per CPU second\n",
              ceiling.wall * 1e-6, ceiling.cpu * 1e-6);
   fmt::print("lookups per sample, majorant grid over one majorant: {:.3f}\n",

@@ -32,4 +32,15 @@ GeneratedVolume makeFlame();
 /// @throws Error if the file cannot be written.
 void writeVolume(const std::filesystem::path& path, const GeneratedVolume& volume);
 
+/// Radius of the ball that writeBall makes, as a share of its index space's edge.
+inline constexpr double kBallRadius = 0.1;
+
+/// Mean density of the ball along a diameter: 1 in its centre, 1/2 at its rim, quadratic between.
+inline constexpr double kBallMeanDensity = 5.0 / 6.0;
+
+/// Writes a grid "density" in [0, edge)^3 of index space, which is a cube of edge 1 about the origin of the world: a ball
+/// in its middle, without tiles, so that 0.42 % of the voxels are stored whatever the edge. Needs no dense field.
+/// @throws Error if the file cannot be written.
+void writeBall(const std::filesystem::path& path, int edge);
+
 } // namespace tyndall::volume

@@ -180,6 +180,9 @@ const BadInput kOptions[] = {
     {"--spp 4", "--spp", "tyndall render FILE --spp"},
     {"-v", "command is missing", "tyndall render FILE"},
     {"devices --device nosuch", "nosuch", "not selected"},
+    {"verify furnance", "furnance", "did you mean furnace?"},
+    {"verify furnace --json nowhere/checks.json", "nowhere", "create it"},
+    {"verify --device nosuch", "nosuch", "not selected"},
 };
 INSTANTIATE_TEST_SUITE_P(Options, BadInputs, testing::ValuesIn(kOptions));
 

@@ -41,7 +41,8 @@ TEST_F(Commands, NoArgumentsShowTheTwoFirstExamples) {
 
 TEST_F(Commands, EveryCommandHasHelpAndTheProgramAVersion) {
   EXPECT_EQ(run("--version").exitCode, 0);
-  for (const char* command : {"render", "info", "check", "compare", "merge", "devices"}) {
+  for (const char* command :
+       {"render", "info", "check", "compare", "merge", "export", "verify", "bench", "devices"}) {
     const Outcome outcome = run(std::string(command) + " --help");
     EXPECT_EQ(outcome.exitCode, 0) << command;
     EXPECT_THAT(outcome.output, HasSubstr("--help")) << command;

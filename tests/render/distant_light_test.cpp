@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lights at infinity (docs/theory.md A14): environments, suns with a diameter, maps; all by MIS.
 #include "film/exr.h"
-#include "support/oracle_radiance.h"
 #include "support/render_fixture.h"
 #include "support/render_scenes.h"
+#include "verify/oracle_radiance.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

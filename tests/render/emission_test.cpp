@@ -3,9 +3,9 @@
 // layers beside the picture.
 #include "light/blackbody.h"
 #include "render/film_fixture.h"
-#include "support/oracle_radiance.h"
 #include "support/render_fixture.h"
 #include "support/render_scenes.h"
+#include "verify/oracle_radiance.h"
 
 #include <gtest/gtest.h>
 

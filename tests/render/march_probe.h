@@ -5,8 +5,8 @@
 #include "march_probe_io.h"
 #include "render/march_scene.h"
 #include "render/marcher.h"
-#include "support/oracle_radiance.h"
 #include "support/render_scenes.h"
+#include "verify/oracle_radiance.h"
 
 #include <functional>
 #include <memory>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where everything is white, nothing can be seen (docs/theory.md A5); and light that comes back from a half-space (A6).
 #include "support/path_scenes.h"
+#include "verify/references.h"
 
 #include <gtest/gtest.h>
 
@@ -9,16 +10,6 @@
 
 namespace tyndall::test {
 namespace {
-
-/// Media of every kind and phase function, one inside the other, that absorb nothing.
-void addWhiteMedia(PathScene& test) {
-  test.sphere({0.2, 0.1, 0.0}, 0.9, 0.8).phase = henyeyGreenstein(0.8);
-  test.sphere({-0.3, 0.0, 0.2}, 0.6, 2.0).phase = {PhaseId::Rayleigh, {}};
-  test.box({-0.9, -0.9, -0.4}, {0.1, 0.3, 0.9}, 0.7).phase = {PhaseId::Draine, {0.5, 20.0, 0.0, 0.0}};
-  test.box({-0.2, -0.8, -0.9}, {0.9, 0.8, 0.2}, 0.5).phase = {PhaseId::TwoLobe, {0.8, -0.3, 0.6, 0.0}};
-  test.sphere({0.3, 0.4, 0.3}, 0.5, 0.6).phase = {PhaseId::Mie, {12.0, 0.0, 0.0, 0.0}};
-  test.grid(puffGrid(), 2.0).phase = henyeyGreenstein(-0.3);
-}
 
 /// One standard error of the image is 0.05 %.
 TEST(WhiteFurnace, OfMedia) {
@@ -35,13 +26,7 @@ TEST(WhiteFurnace, OfMedia) {
 
 /// A closed room whose walls shine with 1 and reflect one half has 2 everywhere, whatever scatters in it.
 TEST(WhiteFurnace, OfAClosedRoomWithMedia) {
-  PathScene test({8, 8});
-  test.perspective({0.0, 0.0, 1.4}, {0.2, 0.1, 0.0}, 80.0);
-  geometry::Material& wall = test.lamp("wall", 1.0);
-  wall.colour = glm::dvec3(0.5);
-  wall.twoSided = true; // faces of boxes look outwards
-  test.crate("wall", glm::dvec3(-1.5), glm::dvec3(1.5));
-  addWhiteMedia(test);
+  const PathScene test = whiteRoom();
   const MomentOptions options = byPaths({.replicates = 24, .samples = 32});
   const Moments moments = renderMoments(test.scene, test.volumes, options);
   EXPECT_AGREES(pixelTest(moments, std::vector<double>(moments.pixels.size(), 2.0)));
@@ -107,32 +92,6 @@ TEST(WhiteFurnace, OfHardlyRoughGlassAndMetal) {
   const Moments moments = renderMoments(test.scene, test.volumes, byPaths({.replicates = 16, .samples = 64}));
   EXPECT_AGREES(imageTest(moments, 1.0, 0, 2e-3));
   EXPECT_DIFFERS(imageTest(moments, 0.99, 0, 2e-3)); // planted: 1 % lost
-}
-
-/// Radiance that leaves an isotropic half-space at cosine `out`, lit by perpendicular irradiance 1 at cosine `in`;
-/// channels have albedos of their own. By H functions, 8 digits.
-struct HalfSpace {
-  double out, in;
-  glm::dvec3 albedo, radiance;
-};
-const HalfSpace kHalfSpaces[] = {{1.0, 1.0, {0.5, 0.8, 0.9}, {0.031147627, 0.081306073, 0.122572307}},
-                                 {0.5, 1.0, {0.3, 0.9, 0.99}, {0.019683938, 0.137453331, 0.240084980}},
-                                 {1.0, 0.5, {0.5, 0.8, 0.99}, {0.019710875, 0.047931184, 0.120042490}},
-                                 {1.0, 1.0, {0.3, 0.9, 0.99}, {0.015156861, 0.122572307, 0.240863393}},
-                                 {0.5, 1.0, {0.5, 0.8, 0.9}, {0.039421750, 0.095862368, 0.137453331}},
-                                 {1.0, 0.5, {0.3, 0.9, 0.8}, {0.009841969, 0.068726665, 0.047931184}}};
-
-/// 40 mean free paths deep and 2000 wide. As a grid its surface is a ramp of 5, which a half-space does not care for.
-PathScene halfSpace(const HalfSpace& row, bool asGrid) {
-  PathScene test({8, 8});
-  const glm::dvec3 out(std::sqrt(1.0 - row.out * row.out), 0.0, row.out);
-  test.orthographic(50.0 * out, {0.0, 0.0, 0.0}, 0.1);
-  test.sun({0.0, -std::sqrt(1.0 - row.in * row.in), -row.in});
-  const glm::dvec3 low(-1000.0, -1000.0, -40.0);
-  const glm::dvec3 high(1000.0, 1000.0, 0.0);
-  scene::Medium& medium = asGrid ? test.grid(constantGrid(9, low, high, 1.0), 1.0) : test.box(low, high, 1.0);
-  medium.albedo = row.albedo;
-  return test;
 }
 
 /// One standard error is 0.2 to 0.4 %. The long version takes all rows of the table, and a quarter of that error.

@@ -2,7 +2,8 @@
 // Lights seen by paths, against closed forms and quadrature: the sphere light in fog (docs/theory.md A3), a ball that
 // glows, a spot, holes in the way.
 #include "support/path_scenes.h"
-#include "support/quadrature.h"
+#include "verify/oracle_sphere.h"
+#include "verify/quadrature.h"
 
 #include <gtest/gtest.h>
 
@@ -14,77 +15,12 @@ namespace {
 
 using std::numbers::pi;
 
-/// Where a ray from the origin meets a sphere; first >= last: it misses.
-struct Chord {
-  double first = 0.0;
-  double last = 0.0;
-};
-Chord chordOf(const glm::dvec3& toCentre, double radius, const glm::dvec3& direction) {
-  const double middle = glm::dot(toCentre, direction);
-  const glm::dvec3 aside = toCentre - middle * direction;
-  const double half2 = radius * radius - glm::dot(aside, aside);
-  return half2 > 0.0 ? Chord{middle - std::sqrt(half2), middle + std::sqrt(half2)} : Chord{};
-}
-
-/// Integral over the cone of directions that meet a sphere from outside, by Gauss's rule in the angle from its axis
-/// (stretched, so that chords have no root at the horizon) and an even one around it.
-double overSphere(const glm::dvec3& toCentre, double radius, const std::function<double(const glm::dvec3&)>& function) {
-  const double distance = glm::length(toCentre);
-  const glm::dvec3 axis = toCentre / distance;
-  const glm::dvec3 across = glm::normalize(glm::cross(axis, glm::dvec3(0.3, 1.0, 0.2)));
-  const glm::dvec3 up = glm::cross(axis, across);
-  const GaussRule& rule = gaussRule(24);
-  constexpr int kAround = 48;
-  double sum = 0.0;
-  for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
-    // sin(theta) = R / d sin(u), u from 0 to 90 degrees.
-    const double u = 0.5 * pi * rule.nodes[i];
-    const double sine = radius / distance * std::sin(u);
-    const double cosine = std::sqrt(1.0 - sine * sine);
-    const double weight = rule.weights[i] * 0.5 * pi * sine * radius / distance * std::cos(u) / cosine;
-    for (int k = 0; k < kAround; ++k) {
-      const double phi = 2.0 * pi * (k + 0.5) / kAround;
-      sum += weight * 2.0 * pi / kAround *
-             function(sine * std::cos(phi) * across + sine * std::sin(phi) * up + cosine * axis);
-    }
-  }
-  return sum;
-}
-
-/// A camera that looks along +z at fog from z = 0 to 8, one scattering event; what shines is at kLamp.
-const glm::dvec3 kLamp{1.2, 0.3, 3.0};
-constexpr double kRadius = 0.6;
-constexpr double kDepth = 8.0;
-constexpr double kSigmaT = 0.3;
-constexpr double kAlbedo = 0.9;
-constexpr double kG = 0.5;
-
-PathScene fog() {
-  PathScene test({8, 8});
-  test.perspective({0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, 1e-6);
-  test.box({-30.0, -30.0, 0.0}, {30.0, 30.0, kDepth}, kSigmaT, kAlbedo).phase = henyeyGreenstein(kG);
-  test.depth(1);
-  return test;
-}
-
-double phase(double cosine) { return (1.0 - kG * kG) / (4.0 * pi * std::pow(1.0 + kG * kG - 2.0 * kG * cosine, 1.5)); }
-
-/// In-scattering along the axis; `light`: radiance that arrives from a direction, given the chord through the lamp.
-double airlight(const std::function<double(const Chord&)>& light) {
-  const auto at = [&](double t) {
-    const glm::dvec3 toLamp = kLamp - glm::dvec3(0.0, 0.0, t);
-    const auto scattered = [&](const glm::dvec3& w) { return phase(w.z) * light(chordOf(toLamp, kRadius, w)); };
-    return kAlbedo * kSigmaT * std::exp(-kSigmaT * t) * overSphere(toLamp, kRadius, scattered);
-  };
-  return integratePieces(at, {0.0, 2.0, 3.0, 4.0, kDepth}, 1e-7);
-}
+const BallInFog kBall;
 
 /// One standard error is some 0.1 %.
 TEST(SphereLightInFog, AgreesWithQuadratureByEachTechnique) {
-  PathScene test = fog();
-  test.lamp("lamp", 5.0);
-  test.ball("lamp", kLamp, kRadius);
-  const double reference = airlight([](const Chord& chord) { return 5.0 * std::exp(-kSigmaT * chord.first); });
+  const PathScene test = kBall.withLamp();
+  const double reference = kBall.lampRadiance();
   for (const MomentOptions& options : eachTechnique({.replicates = 24, .samples = 128})) {
     EXPECT_AGREES(imageTest(renderMoments(test.scene, test.volumes, options), reference, 0, 2e-5))
         << techniqueOf(options);
@@ -96,11 +32,11 @@ TEST(SphereLightInFog, AgreesWithQuadratureByEachTechnique) {
 
 /// The same place glows in all of its volume: emission 2 W/(m3 sr) within the fog, which dims it.
 TEST(GlowingBall, InFogAgreesWithQuadratureByEachTechnique) {
-  PathScene test = fog();
-  test.sphere(kLamp, kRadius, 0.0, 0.0).emission = scene::Emission{};
+  PathScene test = kBall.fog();
+  test.sphere(kBall.centre, kBall.radius, 0.0, 0.0).emission = scene::Emission{};
   test.scene.media.back().emission->scale = 2.0;
-  const double reference = airlight([](const Chord& chord) {
-    return 2.0 * std::exp(-kSigmaT * chord.first) * -std::expm1(-kSigmaT * (chord.last - chord.first)) / kSigmaT;
+  const double reference = kBall.airlight([](const Chord& chord) {
+    return 2.0 * std::exp(-kBall.sigmaT * chord.first) * -std::expm1(-kBall.sigmaT * (chord.last - chord.first)) / kBall.sigmaT;
   });
   for (const MomentOptions& options : eachTechnique({.replicates = 24, .samples = 128})) {
     EXPECT_AGREES(imageTest(renderMoments(test.scene, test.volumes, options), reference, 0, 2e-5))

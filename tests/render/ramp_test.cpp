@@ -4,9 +4,9 @@
 #include "base/error.h"
 #include "film/statistics.h"
 #include "render/walk_probe.h"
-#include "support/oracle_radiance.h"
 #include "support/render_fixture.h"
 #include "support/render_scenes.h"
+#include "verify/oracle_radiance.h"
 #include "volume/depth.h"
 
 #include <glm/gtc/matrix_transform.hpp>

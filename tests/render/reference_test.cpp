@@ -1,40 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures against closed forms and quadrature: airlight (docs/theory.md A1), the box under a directional light (A2),
 // every phase function.
-#include "support/oracle_radiance.h"
 #include "support/render_fixture.h"
 #include "support/render_scenes.h"
+#include "verify/oracle_radiance.h"
+#include "verify/references.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 namespace tyndall::test {
 namespace {
-
-using std::numbers::pi;
-
-/// One row of A1's table; radiance at 12 digits.
-struct AirlightRow {
-  double sigmaT, albedo, g, d, h, tMax, radiance;
-};
-constexpr AirlightRow kRows[] = {
-    {0.1, 0.9, 0.0, 5.0, 1.0, 20.0, 0.0103598185685},     {0.1, 0.9, 0.7, 5.0, 1.0, 20.0, 0.0153156256823},
-    {0.1, 0.9, -0.5, 5.0, 1.0, 20.0, 0.0107792022829},    {1.0, 0.5, 0.3, 2.0, 0.1, 10.0, 0.165747502219},
-    {1.0, 0.5, 0.3, 2.0, 0.001, 10.0, 18.9658564515},     {0.01, 1.0, 0.9, 100.0, 3.0, 1000.0, 0.00142365682824},
-    {5.0, 0.99, 0.0, 0.5, 0.05, 4.0, 1.32831277621},      {0.0001, 1.0, 0.0, 10.0, 0.5, 100.0, 4.90580330352e-5},
-    {0.25, 0.8, 0.85, 3.0, 2.0, 1000.0, 0.00148568044267}};
-
-/// The footprint of every pixel is the axis itself: 1e-6 degrees.
-TestScene airlight(const AirlightRow& row, double verticalFov = 1e-6) {
-  TestScene test({16, 16});
-  test.perspective({0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, verticalFov);
-  const double side = 2.0 * row.tMax;
-  test.box({-side, -side, 0.0}, {side, side, row.tMax}, row.sigmaT, row.albedo).phase = henyeyGreenstein(row.g);
-  test.point({row.h, 0.0, row.d});
-  return test;
-}
 
 Verdict airlightVerdict(const AirlightRow& row, const MomentOptions& options) {
   const TestScene test = airlight(row);
@@ -42,7 +19,7 @@ Verdict airlightVerdict(const AirlightRow& row, const MomentOptions& options) {
 }
 
 TEST(Airlight, QuadratureReproducesTheTable) {
-  for (const AirlightRow& row : kRows) {
+  for (const AirlightRow& row : kAirlightRows) {
     const TestScene test = airlight(row);
     const OracleScene oracle(test.scene, test.volumes, {.relative = 1e-11});
     EXPECT_NEAR(oracle.radiance({glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 1.0)}) / row.radiance, 1.0, 1e-9)
@@ -52,7 +29,7 @@ TEST(Airlight, QuadratureReproducesTheTable) {
 
 TEST(Airlight, SingleRayOfEveryRow) {
   for (const MomentOptions& options : eachMethod()) {
-    for (const AirlightRow& row : kRows) {
+    for (const AirlightRow& row : kAirlightRows) {
       EXPECT_AGREES(airlightVerdict(row, options))
           << nameOf(options) << "\nsigma_t " << row.sigmaT << " g " << row.g << " h " << row.h;
     }
@@ -61,9 +38,9 @@ TEST(Airlight, SingleRayOfEveryRow) {
 
 TEST(Airlight, PlantedBugsAreSeen) {
   for (const MomentOptions& options : eachMethod()) {
-    EXPECT_DIFFERS(airlightVerdict(kRows[1], withBug(options, interop::kBugPhaseSign))) << nameOf(options);
-    EXPECT_DIFFERS(airlightVerdict(kRows[0], withBug(options, interop::kBugJacobian))) << nameOf(options);
-    EXPECT_DIFFERS(airlightVerdict(kRows[0], withBug(options, interop::kBugNoInverse4Pi))) << nameOf(options);
+    EXPECT_DIFFERS(airlightVerdict(kAirlightRows[1], withBug(options, interop::kBugPhaseSign))) << nameOf(options);
+    EXPECT_DIFFERS(airlightVerdict(kAirlightRows[0], withBug(options, interop::kBugJacobian))) << nameOf(options);
+    EXPECT_DIFFERS(airlightVerdict(kAirlightRows[0], withBug(options, interop::kBugNoInverse4Pi))) << nameOf(options);
   }
 }
 
@@ -97,7 +74,7 @@ TEST(Airlight, PictureAgreesWithQuadratureOverEveryFootprint) {
 /// A row's medium as a grid of constant density around the camera, the light and the ray up to tMax.
 TEST(Airlight, GridOfConstantDensity) {
   for (const std::size_t index : {0u, 1u, 3u, 6u}) {
-    const AirlightRow& row = kRows[index];
+    const AirlightRow& row = kAirlightRows[index];
     TestScene test({16, 16});
     test.perspective({0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, 1e-6);
     const double side = 0.5 * row.tMax;
@@ -113,32 +90,11 @@ TEST(Airlight, GridOfConstantDensity) {
   }
 }
 
-/// A2's closed form: mean over a pixel of height dy at y.
-std::vector<double> slabReference(const glm::uvec2& size, double sigmaT, double albedo, double irradiance) {
-  std::vector<double> reference;
-  const double dy = 2.0 / size.y;
-  const double u = 0.5 * sigmaT * dy;
-  for (std::uint32_t row = 0; row < size.y; ++row) {
-    const double y = 1.0 - (row + 0.5) * dy;
-    const double value = albedo / (4.0 * pi) * irradiance * std::exp(-sigmaT * (1.0 - y)) * -std::expm1(-2.0 * sigmaT) *
-                         std::sinh(u) / u;
-    reference.insert(reference.end(), size.x, value);
-  }
-  return reference;
-}
-
-TestScene litBox() {
-  TestScene test({16, 16});
-  test.orthographic({0.0, 0.0, 5.0}, {0.0, 0.0, 0.0}, 2.0);
-  test.sun({0.0, -1.0, 0.0}, 3.0);
-  return test;
-}
-
 TEST(DirectionalLightOnABox, HomogeneousAgreesInEveryPixel) {
   for (const double sigmaT : {0.01, 1.0, 6.0}) {
     TestScene test = litBox();
     test.box(glm::dvec3(-1.0), glm::dvec3(1.0), sigmaT, 0.8);
-    const auto reference = slabReference(test.scene.film.size, sigmaT, 0.8, 3.0);
+    const auto reference = litBoxReference(test.scene.film.size, sigmaT, 0.8, 3.0);
     for (const MomentOptions& options : eachMethod()) {
       const Moments moments = renderMoments(test.scene, test.volumes, options);
       EXPECT_AGREES(pixelTest(moments, reference)) << sigmaT << nameOf(options);

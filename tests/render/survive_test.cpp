@@ -2,8 +2,8 @@
 // Numbers that must survive (docs/numbers-that-survive.md lists which line is which test):
 // no sample is lost, everything is finite, and right where there is a closed form.
 #include "render/film_fixture.h"
-#include "support/oracle_radiance.h"
 #include "support/render_fixture.h"
+#include "verify/oracle_radiance.h"
 
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>

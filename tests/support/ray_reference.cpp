@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "support/ray_reference.h"
 
-#include "support/oracle_phase.h"
 #include "support/ray_reference_media.h"
+#include "verify/oracle_phase.h"
 
 #include <tbb/parallel_for.h>
 

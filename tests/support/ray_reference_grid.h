@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "support/oracle_radiance.h"
+#include "verify/oracle_radiance.h"
 #include "volume/brick_grid.h"
 
 #include <algorithm>
@@ -12,6 +12,8 @@
 
 /// Exact walks through grids in double, fast enough for millions of rays.
 namespace tyndall::test {
+
+using namespace verify;
 
 inline glm::dvec3 pointAt(const OracleRay& ray, double t) { return ray.origin + t * ray.direction; }
 

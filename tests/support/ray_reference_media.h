@@ -3,8 +3,8 @@
 
 #include "gpu_scene/volumes.h"
 #include "scene/scene.h"
-#include "support/quadrature.h"
 #include "support/ray_reference.h"
+#include "verify/quadrature.h"
 
 #include <array>
 #include <limits>

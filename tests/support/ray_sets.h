@@ -2,7 +2,7 @@
 #pragma once
 
 #include "math/bounds.h"
-#include "support/oracle_radiance.h"
+#include "verify/oracle_radiance.h"
 
 #include <array>
 #include <cstdint>
@@ -10,6 +10,8 @@
 
 /// Rays on which walks through voxels go wrong.
 namespace tyndall::test {
+
+using namespace verify;
 
 /// "Plane", "edge" and "corner" are those of the voxel cells: whole coordinates on one, two or three axes. "Exactly"
 /// means in the floats themselves.

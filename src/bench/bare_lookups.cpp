@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/ceilings.h"
+#include "bench/figure.h"
+#include "gpu/kernel.h"
+#include "passes/bench/bench_io.h"
+#include "render/pixel_order.h"
+
+// Needs <cstdint> before it.
+#include "kernels/bare_lookup.h"
+
+#include <algorithm>
+#include <array>
+
+namespace tyndall::bench {
+
+Cost bareLookups(const gpu::Device& device, const gpu_scene::GpuScene& gpuScene, std::uint32_t size,
+                 std::uint32_t repeats, double meanStep) {
+  const std::array spec{gpu::SpecEntry{0, gpuScene.features().formatMask}};
+  const gpu::Kernel kernel(device, k_bare_lookup_spirv, spec, gpuScene.images());
+  const std::vector<std::uint32_t> order = render::dispatchOrder({glm::uvec2(0), glm::uvec2(size)});
+  const gpu::Buffer<std::uint32_t> pixels(device, std::span<const std::uint32_t>(order), gpu::Memory::Host);
+  const gpu::Buffer<float> sums(device, order.size(), gpu::Memory::Host);
+  constexpr std::uint32_t kLookups = 64;
+  const interop::BareLookupInputs inputs{gpuScene.ptr(), pixels.ptr(),
+                                         sums.ptr(),     static_cast<std::uint32_t>(order.size()),
+                                         kLookups,       static_cast<float>(meanStep)};
+  kernel.run(inputs, inputs.count);
+  std::vector<double> wall;
+  std::vector<double> cpu;
+  for (std::uint32_t i = 0; i < repeats; ++i) {
+    const Cost cost = costOf([&] { kernel.run(inputs, inputs.count); });
+    wall.push_back(cost.wall);
+    cpu.push_back(cost.cpu);
+  }
+  const auto hits = std::count_if(sums.mapped().begin(), sums.mapped().end(), [](float sum) { return sum != 0.0f; });
+  const double lookups = double(hits) * kLookups;
+  return {lookups / median(wall), lookups / median(cpu)};
+}
+
+} // namespace tyndall::bench
