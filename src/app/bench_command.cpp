@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "bench/baseline.h"
+#include "bench/ceilings.h"
 #include "bench/machine.h"
 #include "bench/measure.h"
 #include "bench/page.h"
@@ -16,6 +17,7 @@
 #include <algorithm>
 #include <fstream>
 #include <memory>
+#include <set>
 #include <sstream>
 
 namespace tyndall::app {
@@ -122,6 +124,12 @@ std::vector<bench::Contender> contendersOf(const BenchArguments& arguments, cons
     const std::vector<bench::Contender> theirs = bench::peerContenders(peer);
     contenders.insert(contenders.end(), theirs.begin(), theirs.end());
   }
+  std::set<std::string> names; // of files, too
+  for (const bench::Contender& contender : contenders) {
+    if (!names.insert(contender.name).second || contender.name.find('/') != std::string::npos) {
+      fail("two contenders are called \"{}\", or it holds a slash; give each a name of its own", contender.name);
+    }
+  }
   return contenders;
 }
 
@@ -149,6 +157,9 @@ bench::Suite suiteOf(const BenchArguments& arguments) {
     std::erase_if(suite.scenes, [&](const bench::SuiteScene& scene) {
       return std::ranges::find(arguments.scenes, scene.name) == arguments.scenes.end();
     });
+  }
+  if (!std::ranges::is_sorted(arguments.samples, std::less_equal<>())) {
+    fail("--samples {}: they must rise", fmt::join(arguments.samples, ","));
   }
   for (bench::SuiteScene& scene : suite.scenes) {
     if (!arguments.samples.empty()) {
@@ -187,6 +198,8 @@ bench::Report measure(const BenchArguments& arguments, const bench::Suite& suite
     report.scenes.push_back(bench::measureScene(scene, contenders, options, say));
   }
   report.machine["device"] = report.scenes.front().device;
+  report.bare =
+      bench::measureBareRates(gpu::Device({.select = arguments.device, .validation = false, .pipelineCache = {}}));
   return report;
 }
 
@@ -244,6 +257,10 @@ int benchCommand(const BenchArguments& arguments) {
   checkWritable(json);
   std::optional<bench::Report> baseline;
   if (!arguments.against.empty()) { // read now, not after an hour
+    std::error_code ignored;
+    if (fs::equivalent(json, arguments.against, ignored)) {
+      fail("--against {}: this report would overwrite it; name another with -o", arguments.against);
+    }
     baseline = bench::reportFromJson(readTextFile(arguments.against), arguments.against);
   }
   const WorkFolder folder(arguments.keep);
@@ -271,7 +288,8 @@ void addBenchCommand(CLI::App& app, Action& action) {
       "bench", "Run time against error of a suite of scenes, as an HTML page with plots and as JSON");
   auto arguments = std::make_shared<BenchArguments>();
   arguments->options.program = fs::canonical("/proc/self/exe");
-  command->add_option("suite", arguments->suite, "Suite by name (quick, standard) or .json file; or scaling, skip (quick)");
+  command->add_option("suite", arguments->suite,
+                      "Suite by name (quick, standard) or .json file; or scaling, skip (quick)");
   command->add_option("-o,--output", arguments->output, "page to write, with figures in a .json beside it (bench.html)")
       ->type_name("FILE");
   command->add_flag("--list", arguments->list, "say what the suite has, and stop");

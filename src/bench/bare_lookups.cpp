@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/ceilings.h"
 #include "bench/figure.h"
+#include "bench/scenes.h"
 #include "gpu/kernel.h"
 #include "passes/bench/bench_io.h"
 #include "render/pixel_order.h"
@@ -35,6 +36,18 @@ Cost bareLookups(const gpu::Device& device, const gpu_scene::GpuScene& gpuScene,
   const auto hits = std::count_if(sums.mapped().begin(), sums.mapped().end(), [](float sum) { return sum != 0.0f; });
   const double lookups = double(hits) * kLookups;
   return {lookups / median(wall), lookups / median(cpu)};
+}
+
+BareRates measureBareRates(const gpu::Device& device) {
+  constexpr int kCloudEdge = 64;
+  constexpr std::uint32_t kEdge = 128; // of the pictures, pixels
+  constexpr std::uint32_t kRepeats = 8;
+  constexpr double kMeanStep = 8.0; // voxels
+  const BenchScene cloud = sunScene(cloudOfEdge(kCloudEdge), 5.0, kEdge);
+  const gpu_scene::GpuScene gpuScene(device, cloud.scene, cloud.volumes);
+  const RayRates rays = rayRates(device, boxScene(), kEdge, kRepeats, Clock::Wall);
+  return {bareLookups(device, gpuScene, kEdge, kRepeats, kMeanStep).wall,
+          1.0 / (0.5 / rays.diffuse + 0.5 / rays.shadow)};
 }
 
 } // namespace tyndall::bench

@@ -14,15 +14,21 @@ constexpr int kNodes = 3;           ///< along a pixel's edge, of which one more
 constexpr double kAgreement = 1e-3; ///< relative; far below any picture's error
 constexpr double kCovered = 0.01;
 
+/// Discs of suns are no part of the quadrature's background.
 bool hasQuadrature(const scene::NamedLight& light) {
+  const auto* sun = std::get_if<scene::SunLight>(&light.light);
   return std::holds_alternative<scene::PointLight>(light.light) ||
-         std::holds_alternative<scene::SunLight>(light.light) ||
+         (sun != nullptr && (sun->angularDiameter == 0.0 || !light.visible)) ||
          std::holds_alternative<scene::ConstantEnvironment>(light.light);
 }
 
+bool hasQuadrature(const scene::Medium& medium) {
+  return medium.homogeneous() && medium.instances.empty() && medium.extinctionColour == glm::dvec3(1.0);
+}
+
 bool hasQuadrature(const scene::Scene& scene) {
-  return scene.objects.empty() && scene.depth() == 1 && scene.camera.lensRadius == 0.0 &&
-         std::ranges::all_of(scene.media, [](const scene::Medium& medium) { return medium.homogeneous(); }) &&
+  return scene.objects.empty() && scene.depth() == 1 && scene.camera.lensRadius == 0.0 && !scene.film.transparent &&
+         std::ranges::all_of(scene.media, [](const scene::Medium& medium) { return hasQuadrature(medium); }) &&
          std::ranges::all_of(scene.lights, [](const scene::NamedLight& light) { return hasQuadrature(light); });
 }
 

@@ -18,7 +18,8 @@ constexpr double kTop = 40.0;
 constexpr double kWidth = 400.0; ///< of the plot
 constexpr double kHeight = 260.0;
 constexpr double kBottom = 52.0;
-constexpr double kKey = 190.0; ///< names of lines
+constexpr double kKey = 52.0;   ///< beside the names of lines
+constexpr double kLetter = 7.0; ///< width of one, about
 constexpr double kRow = 18.0;
 constexpr double kMark = 3.5;
 
@@ -133,10 +134,14 @@ std::string pathText(const ChartLine& line, const Layout& layout, const char* co
 std::string svgText(const LineChart& chart) {
   const Layout layout = layoutOf(chart);
   const double key = kRow * double(chart.lines.size());
+  std::size_t letters = 0;
+  for (const ChartLine& line : chart.lines) {
+    letters = std::max(letters, line.label.size());
+  }
   std::string result = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
       "font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
-      kLeft + kWidth + kKey, std::max(kTop + kHeight + kBottom, kTop + key));
+      kLeft + kWidth + kKey + kLetter * double(letters), std::max(kTop + kHeight + kBottom, kTop + key));
   result += text(kLeft, 24.0, " font-size=\"14\" font-weight=\"bold\"", chart.title);
   result += axesText(chart, layout);
   for (std::size_t i = 0; i < chart.lines.size(); ++i) {

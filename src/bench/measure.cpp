@@ -151,7 +151,7 @@ private:
   }
 
   void refuse(Entrant& entrant, const ProcessOutcome& outcome) {
-    const std::string why = outcome.timedOut ? "it took too long" : lastLine(outcome.errors);
+    const std::string why = lastLine(outcome.errors);
     if (entrant.contender->ours) {
       fail("{}: {} could not render it: {}", scene_.name, entrant.contender->name, why);
     }

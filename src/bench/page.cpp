@@ -104,10 +104,10 @@ std::string levelTable(const SceneResult& scene) {
 }
 
 /// Where the time of ours goes, at the highest effort.
-std::string partsTable(const SceneResult& scene) {
+std::string partsTable(const SceneResult& scene, const std::optional<BareRates>& bare) {
   std::vector<std::vector<std::string>> rows{{"renderer", "start s", "load s", "upload s", "pipeline s",
                                               "first dispatch s", "render s", "write s", "device MB", "kernels kB",
-                                              "M samples/s", "M lookups/s", "M segments/s", "M pieces/s"}};
+                                              "M samples/s", "M lookups/s", "M segments/s", "M pieces/s", "bare %"}};
   for (const ContenderResult& contender : scene.contenders) {
     if (contender.levels.empty() || !contender.levels.back().parts) {
       continue;
@@ -118,7 +118,8 @@ std::string partsTable(const SceneResult& scene) {
     rows.push_back({contender.title, shortText(parts.start), shortText(parts.load), shortText(parts.upload),
                     shortText(parts.pipeline), shortText(parts.first), shortText(parts.render), shortText(parts.write),
                     shortText(1e-6 * parts.deviceBytes), shortText(1e-3 * parts.kernelBytes), rate(work.samples),
-                    rate(work.lookups), rate(work.segments), rate(work.pieces)});
+                    rate(work.lookups), rate(work.segments), rate(work.pieces),
+                    bare ? shortText(100.0 * bare->share(work.lookups, work.segments, parts.render)) : ""});
   }
   return table(rows);
 }
@@ -142,14 +143,21 @@ std::string pictures(const SceneResult& scene) {
   return html;
 }
 
-std::string sceneSection(const SceneResult& scene) {
+std::string sceneSection(const SceneResult& scene, const std::optional<BareRates>& bare) {
   std::string html = heading("h2", scene.name);
   html += note(fmt::format("{} {}x{} pixels. Estimator: {}. Errors: {}.", scene.title, scene.size.x, scene.size.y,
                            scene.estimator, scene.reference));
   html += svgText(errorChart(scene));
   html += levelTable(scene);
   html += heading("h3", "Where the time goes (wall seconds and rates at the highest effort)");
-  html += partsTable(scene);
+  if (bare) {
+    html +=
+        note(fmt::format("bare %: of the render seconds, those that as many lookups and segments would take with "
+                         "nothing else to do: this device reaches {} M bare density lookups and {} M bare ray casts "
+                         "a second, in a cloud and in a box. What is counted as lookups by the march is a cell each.",
+                         shortText(1e-6 * bare->lookups), shortText(1e-6 * bare->rays)));
+  }
+  html += partsTable(scene, bare);
   html += heading("h3", "Pictures of one seed at the highest effort, and relative errors scaled to one CPU second");
   html += note("Maps are logarithmic from black (0.1 %) over red (1 %) and yellow (10 %) to white (100 %).");
   return html + pictures(scene);
@@ -204,6 +212,7 @@ LineChart errorChart(const SceneResult& scene) {
       line.points.push_back({level.cpu.value, level.errors.relMse.value,
                              level.runs >= 2 ? interval(level.errors.relMse, level.runs) : none});
     }
+    std::ranges::sort(line.points, {}, &ChartPoint::x); // finer settings may take less time
     chart.lines.push_back(line);
   }
   return chart;
@@ -220,7 +229,7 @@ std::string htmlPage(const Report& report) {
     html += summaries(report);
   }
   for (const SceneResult& scene : report.scenes) {
-    html += sceneSection(scene);
+    html += sceneSection(scene, report.bare);
   }
   if (!report.scaling.empty()) {
     html += scalingSection(report.scaling);

@@ -59,7 +59,7 @@ std::vector<char*> pointers(std::vector<std::string>& words) {
   return result;
 }
 
-/// After fork: only calls that are safe there.
+/// After fork, in a process of one thread.
 [[noreturn]] void become(char* const* command, char* const* environment, const Capture& out, const Capture& err) {
   setpgid(0, 0); // so that what it starts can be ended with it
   prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -69,6 +69,8 @@ std::vector<char*> pointers(std::vector<std::string>& words) {
     putenv(*entry);
   }
   execvp(command[0], command);
+  constexpr char kText[] = "the program could not be started: is it there, and executable?\n";
+  (void)!write(STDERR_FILENO, kText, sizeof(kText) - 1);
   _exit(127);
 }
 
@@ -123,6 +125,9 @@ ProcessOutcome runProcess(const std::vector<std::string>& command, const std::ve
   outcome.peakBytes = std::uint64_t(usage.ru_maxrss) * 1024u;
   outcome.output = out.text();
   outcome.errors = err.text();
+  if (WIFSIGNALED(status)) {
+    outcome.errors += outcome.timedOut ? "it took too long\n" : fmt::format("signal {} ended it\n", WTERMSIG(status));
+  }
   return outcome;
 }
 

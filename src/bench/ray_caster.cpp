@@ -82,7 +82,8 @@ BenchRays secondaryRays(const RayScene& scene, const geometry::Bvh& bvh, const B
   return rays;
 }
 
-RayRates rayRates(const gpu::Device& device, const RayScene& scene, std::uint32_t size, std::uint32_t repeats) {
+RayRates rayRates(const gpu::Device& device, const RayScene& scene, std::uint32_t size, std::uint32_t repeats,
+                  Clock clock) {
   const geometry::Bvh bvh = geometry::buildBvh(scene.triangles);
   DeviceCaster caster(device, bvh);
   const BenchRays primary = primaryRays(scene, size);
@@ -92,7 +93,7 @@ RayRates rayRates(const gpu::Device& device, const RayScene& scene, std::uint32_
     std::vector<double> seconds;
     for (std::uint32_t round = 0; round < repeats; ++round) {
       const Cost cost = costOf([&] { caster.run(anyHit); });
-      seconds.push_back(secondsOf(cost, device));
+      seconds.push_back(clock == Clock::Wall ? cost.wall : secondsOf(cost, device));
     }
     return double(rays.size()) / median(seconds);
   };

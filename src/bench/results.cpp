@@ -149,6 +149,9 @@ Json toJson(const Report& report) {
                               {"reference", scene.reference},
                               {"contenders", contenders}});
   }
+  if (report.bare) {
+    json["bare_per_second"] = {{"lookups", report.bare->lookups}, {"rays", report.bare->rays}};
+  }
   for (const ScalingCurve& curve : report.scaling) {
     json["scaling"].push_back(toJson(curve));
   }

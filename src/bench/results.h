@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "bench/bare_rates.h"
 #include "bench/crossing.h"
 #include "bench/replicates.h"
 #include "bench/scaling.h"
@@ -93,6 +94,7 @@ struct Report {
   std::map<std::string, std::string> machine; ///< processor, device, driver, versions
   std::size_t seeds = 0;
   std::vector<SceneResult> scenes;
+  std::optional<BareRates> bare = {};
   std::vector<ScalingCurve> scaling = {};
   std::optional<SkipTable> skip = {};
 };

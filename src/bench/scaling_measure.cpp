@@ -127,18 +127,24 @@ private:
     point.deviceBytes = few.deviceBytes;
     point.hostBytes = few.hostBytes;
     if (point.leftOut.empty()) {
-      chooseMany(value, few.seconds);
+      chooseMany(point, value, few.seconds);
     }
   }
 
   /// The first run may have met cold caches: then samples seem to take less, and there are more than wanted.
-  void chooseMany(Value& value, double few) const {
+  void chooseMany(ScalingPoint& point, Value& value, double few) const {
     const double wanted = std::max(plan_.wallClock ? kWantedWallSeconds : kWantedSeconds, kWantedShare * few);
     double growth = kLeastGrowth;
     for (value.many = kFewSamples; value.many < kMostSamples;) {
+      const std::uint32_t before = value.many;
       value.many *= std::uint32_t(growth);
       const Outcome outcome = render(value, value.many, 0);
-      const double spent = outcome.problem.empty() ? outcome.seconds : options_.limitSeconds;
+      if (!outcome.problem.empty()) {
+        point.leftOut = before > kFewSamples ? std::string() : outcome.problem;
+        value.many = before;
+        return;
+      }
+      const double spent = outcome.seconds;
       if (spent - few >= wanted || kLeastGrowth * spent > options_.limitSeconds) {
         return;
       }

@@ -20,6 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kEnding = ".spv";
+constexpr std::uint32_t kRecipe = 1; ///< raised with every change of the passes below
 using Hash = std::uint64_t;
 
 /// After the words of a kept module stands their hash.
@@ -32,7 +33,7 @@ fs::path fileFor(std::span<const std::uint32_t> words, std::span<const SpecEntry
   std::string text(reinterpret_cast<const char*>(words.data()), words.size_bytes());
   text.append(reinterpret_cast<const char*>(spec.data()), spec.size_bytes());
   text += spvSoftwareVersionDetailsString();
-  return folder / fmt::format("{:016x}{}", hashText(text), kEnding);
+  return folder / fmt::format("{:016x}-{}{}", hashText(text), kRecipe, kEnding);
 }
 
 std::optional<std::vector<std::uint32_t>> readKept(const fs::path& file) {

@@ -2,6 +2,8 @@
 #include "bench/ceilings.h"
 #include "bench/path_run.h"
 #include "bench/path_scenes.h"
+#include "microbench/commands.h"
+#include "microbench/measure.h"
 #include "microbench/contender.h"
 #include "render/path_tracer.h"
 #include "render/pixel_order.h"
@@ -52,7 +54,8 @@ struct Ceiling {
 Ceiling ceilingOf(const Session& session, const PathScene& scene, const gpu_scene::GpuScene& gpuScene) {
   Ceiling ceiling;
   if (scene.rays) {
-    const RayRates rates = rayRates(session.device, *scene.rays, session.options.size, session.options.repeats);
+    const RayRates rates =
+        rayRates(session.device, *scene.rays, session.options.size, session.options.repeats, Clock::Device);
     ceiling.secondsPerSegment = 0.5 / rates.diffuse + 0.5 / rates.shadow;
     ceiling.text =
         fmt::format("bare casts, M per second: {} primary, {} diffuse, {} shadow", shortText(rates.primary * 1e-6),

@@ -196,7 +196,9 @@ std::span<const interop::PixelSums> PathTracer::runTrial(std::span<const std::ui
   const auto start = std::chrono::steady_clock::now();
   const auto first = runWith(guided, pixels, half, seed);
   trialSums_.assign(first.begin(), first.end());
-  const auto second = runWith(guided, pixels, {half.first + half.count, samples.count - half.count}, seed);
+  // Samples of a batch share stratified sets; the halves must be independent, for their difference is the noise.
+  constexpr std::uint32_t kApart = 0x80000000u;
+  const auto second = runWith(guided, pixels, {half.first + half.count, samples.count - half.count}, seed ^ kApart);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   trial_.take(samples, trialSums_, second, seconds);
   for (std::size_t i = 0; i < pixels.size(); ++i) {

@@ -17,8 +17,10 @@ void prepareDirection(GuidePtr guide, ScatterPoint vertex, inout Rng rng) {
   const vec3 horizon = vertex.transmits ? vec3(0.0) : vertex.place.normal;
   if (!kGuideScreen) {
     loadMixture(guide, point, horizon, facingOf(vertex), rng);
-    // Lobes that have misled a path so far are trusted less: weights then grow with events, not by a factor at each.
-    mixture.scatterShare = 1.0 - (1.0 - mixture.scatterShare) * min(path.unguided, 1.0);
+    if (kGuideFit) {
+      // Lobes that have misled a path so far are trusted less: weights grow with events, not by a factor at each.
+      mixture.scatterShare = 1.0 - (1.0 - mixture.scatterShare) * min(path.unguided, 1.0);
+    }
   } else if (path.events == 1u && onSurface(vertex)) {
     const vec3 before = vertex.before + guide.at[0].shift;
     loadScreenChains(guide, ScreenVertex(pixelInFlight(), point, before, facingOf(vertex)), horizon, rng);
