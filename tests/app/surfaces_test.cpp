@@ -199,7 +199,7 @@ const std::string kInTheWall = R"({"media": [{"name": "fog", "type": "homogeneou
 
 const Extreme kExtremes[] = {
     {"camera inside glass", kInGlass.c_str(), 2.249, 2.251},
-    {"glass of roughness 1e-5", kSmooth.c_str(), 0.9995, 1.0005},
+    {"glass of roughness 1e-5", kSmooth.c_str(), 0.9987, 1.0013}, // 4 standard errors: its weights are not all 1
     {"glass of index 1", kNoGlass.c_str(), 0.9999, 1.0001},
     {"opacity 0", kHole.c_str(), 0.9999, 1.0001},
     {"a perfect mirror", kMirror.c_str(), 0.9999, 1.0001},
