@@ -69,14 +69,13 @@ uint sobolIndex(Sobol s, uint dimension) {
   return group == 0u ? s.index : nestedScramble(s.index, sobolWords(s, group, kSobolPoints).w >> 16u);
 }
 
-/// First four binary digits of coordinate `place` of point `index` of the net of dimensions 0, 1 and 2.
-uint sobolNetDigits(uint index, uint place, uint nodeBits) {
-  const uint directions = sobolDirections(place);
-  uint digits = 0u;
+/// First four binary digits of a coordinate of point `index`: a sixteenth.
+uint sobolDigits(uint index, uint directions, uint nodeBits) {
+  uint sixteenth = 0u;
   for (uint bit = 0u; bit < 4u; ++bit) {
-    digits ^= ((index >> bit) & 1u) * ((directions >> (4u * bit)) & 15u);
+    sixteenth ^= ((index >> bit) & 1u) * ((directions >> (4u * bit)) & 15u);
   }
-  return nestedScramble(digits, nodeBits);
+  return nestedScramble(sixteenth, nodeBits);
 }
 
 /// A point of a (0, 4, 3)-net of its own, as words that are uniform over all 32-bit values: for unitFloat. Nets of
@@ -88,7 +87,7 @@ uvec3 sobolNet(Sobol s, uint name) {
   const uint index = nestedScramble(s.index, set.w >> 16u);
   uvec3 words;
   for (uint place = 0u; place < 3u; ++place) {
-    words[place] = (sobolNetDigits(index, place, set[place] >> 16u) << 28u) | (below[place] >> 4u);
+    words[place] = (sobolDigits(index, sobolDirections(place), set[place] >> 16u) << 28u) | (below[place] >> 4u);
   }
   return words;
 }
@@ -98,13 +97,8 @@ uvec3 sobolNet(Sobol s, uint name) {
 float sobolFloat(Sobol s, uint dimension) {
   const uint group = sobolGroup(dimension);
   const uint place = sobolPlace(dimension);
-  const uint index = sobolIndex(s, dimension);
-  const uint directions = sobolDirections(dimension);
-  uint sixteenth = 0u;
-  for (uint bit = 0u; bit < 4u; ++bit) {
-    sixteenth ^= ((index >> bit) & 1u) * ((directions >> (4u * bit)) & 15u);
-  }
-  sixteenth = nestedScramble(sixteenth, sobolWords(s, group, kSobolPoints)[place] >> 16u);
+  const uint sixteenth =
+      sobolDigits(sobolIndex(s, dimension), sobolDirections(dimension), sobolWords(s, group, kSobolPoints)[place] >> 16u);
   const uint within = sobolWords(s, group, s.index)[place] >> 12u;
   return float((sixteenth << 20u) | within) * 5.9604644775390625e-8; // 2^-24: 24 bits, exact
 }

@@ -274,7 +274,7 @@ int benchCommand(const BenchArguments& arguments) {
     return kDone;
   }
   const std::vector<bench::Change> changes = bench::compareReports(report, *baseline);
-  fmt::print("{}", bench::formatChanges(changes, false));
+  fmt::print("{}", bench::formatChanges(changes));
   const auto worse = std::ranges::count_if(changes, &bench::Change::worse);
   fmt::print("Against {} of {}: {} of {} products of error and work are worse\n", arguments.against, baseline->date,
              worse, changes.size());

@@ -80,16 +80,15 @@ std::vector<Change> compareReports(const Report& now, const Report& then) {
   return changes;
 }
 
-std::string formatChanges(const std::vector<Change>& changes, bool all) {
+std::string formatChanges(const std::vector<Change>& changes) {
   std::vector<Change> sorted = changes;
   std::ranges::stable_sort(sorted, std::greater<>(), [](const Change& change) { return change.ratio.value; });
   std::string text;
   for (const Change& change : sorted) {
-    if (all || change.worse || change.better) {
-      text +=
-          fmt::format("{:<7}{:<20} {:<14} {:>7} samples  {:<20} {}\n",
-                      change.worse ? "WORSE" : (change.better ? "better" : ""), change.scene, change.contender,
-                      change.effort, change.measure, rangeText(change.ratio, std::max<std::size_t>(change.runs, 2)));
+    if (change.worse || change.better) {
+      text += fmt::format("{:<7}{:<20} {:<14} {:>7} samples  {:<20} {}\n", change.worse ? "WORSE" : "better",
+                          change.scene, change.contender, change.effort, change.measure,
+                          rangeText(change.ratio, std::max<std::size_t>(change.runs, 2)));
     }
   }
   return text;

@@ -28,7 +28,7 @@ inline constexpr double kAllowedRise = 1.05;
 /// @throws Error if they have nothing in common.
 std::vector<Change> compareReports(const Report& now, const Report& then);
 
-/// The changes as a table, worst first. @param all also those that are within chance.
-std::string formatChanges(const std::vector<Change>& changes, bool all);
+/// What has surely changed as a table, worst first.
+std::string formatChanges(const std::vector<Change>& changes);
 
 } // namespace tyndall::bench
