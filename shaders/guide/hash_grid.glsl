@@ -12,6 +12,13 @@ struct CellKey {
   uint fingerprint; // never 0
 };
 
+// Where a cell is asked for.
+struct GridPlace {
+  vec3 point;
+  vec3 camera; // that levels go by
+  vec3 facing; // what stands for a normal in keys
+};
+
 const uint kStaticLevel = 0xffu;
 const uint kNoFace = 7u;
 
@@ -62,10 +69,11 @@ uint gridLevel(GuideLevels levels, float distance, inout Rng rng) {
 
 float levelWidth(GuideLevels levels, uint level) { return levels.finest * exp(float(level) * levels.ratioLog); }
 
-CellKey adaptiveKey(GuidePtr guide, vec3 point, vec3 normal, bool byNormal, inout Rng rng) {
-  const uint level = gridLevel(guide.at[0].levels, length(point - guide.at[0].camera), rng);
-  const ivec3 vertex = latticeVertex(point, levelWidth(guide.at[0].levels, level), rng);
-  return cellKey(vertex, level, byNormal ? cubeFace(normal, level) : kNoFace, 0u, guide.at[0].cellCount, guide.at[0].window);
+CellKey adaptiveKey(GuidePtr guide, GridPlace place, bool byNormal, inout Rng rng) {
+  const uint level = gridLevel(guide.at[0].levels, length(place.point - place.camera), rng);
+  const ivec3 vertex = latticeVertex(place.point, levelWidth(guide.at[0].levels, level), rng);
+  const uint face = byNormal ? cubeFace(place.facing, level) : kNoFace;
+  return cellKey(vertex, level, face, 0u, guide.at[0].cellCount, guide.at[0].window);
 }
 
 CellKey staticKey(GuidePtr guide, vec3 point, inout Rng rng) {

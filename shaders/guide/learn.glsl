@@ -25,7 +25,7 @@ GuideUpdate updateOf(uint kind, uint place, uint fingerprint, ChainState state) 
 }
 
 void storeChain(GuidePtr guide, ChainState state, vec3 point, vec3 facing, inout Rng rng) {
-  CellKey key = adaptiveKey(guide, point, facing, kGuideNormals, rng);
+  CellKey key = adaptiveKey(guide, GridPlace(point, guide.at[0].camera, facing), kGuideNormals, rng);
   submit(guide, updateOf(kUpdateChain, key.window, key.fingerprint, state));
   if (kGuideStatic) {
     key = staticKey(guide, point, rng);
@@ -33,19 +33,27 @@ void storeChain(GuidePtr guide, ChainState state, vec3 point, vec3 facing, inout
   }
 }
 
+// A sample goes to both grids; one that has found nothing to either, which is enough to tell more misses from fewer.
 void storeFit(GuidePtr guide, GuideRecord record, float score, inout Rng rng) {
+  const bool both = score > 0.0;
+  const bool fine = both || !kGuideStatic || rngFloat(rng) < 0.5;
   ChainState taken = kEmptyState;
   taken.target = record.target;
   taken.weight = score;
   taken.spread = record.scatterPart;
   taken.evidence = rngFloat(rng);
-  setChainMotion(taken, record.velocity, 1u);
-  CellKey key = adaptiveKey(guide, record.point, record.normal, kGuideNormals, rng);
-  GuideUpdate update = updateOf(kUpdateFit, key.window, key.fingerprint, taken);
+  taken.time = record.scatterPdf;
+  setChainMotion(taken, record.velocity, record.source != kNoState ? 1u : 0u);
+  GuideUpdate update = updateOf(kUpdateFit, 0u, 0u, taken);
   update.point = record.point;
-  submit(guide, update);
-  if (kGuideStatic) {
-    key = staticKey(guide, record.point, rng);
+  if (fine) {
+    const CellKey key = adaptiveKey(guide, GridPlace(record.point, guide.at[0].camera, record.normal), kGuideNormals, rng);
+    update.place = key.window;
+    update.fingerprint = key.fingerprint;
+    submit(guide, update);
+  }
+  if (kGuideStatic && (both || !fine)) {
+    const CellKey key = staticKey(guide, record.point, rng);
     update.place = key.window;
     update.fingerprint = key.fingerprint;
     submit(guide, update);
@@ -86,9 +94,10 @@ void learn(GuidePtr guide, GuideRecord record, vec3 value, inout Rng rng) {
     return;
   }
   if (kGuideFit) {
-    if (score > kLeastChainWeight) {
-      ++learnAccepted;
-      storeFit(guide, record, score, rng);
+    const bool found = score > kLeastChainWeight;
+    learnAccepted += found ? 1u : 0u;
+    if (found || record.source != kNoState && guide.at[0].forgetRate > 0.0) {
+      storeFit(guide, record, found ? score : 0.0, rng);
     }
     return;
   }

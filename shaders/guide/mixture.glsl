@@ -86,31 +86,31 @@ float learntShare(GuidePtr guide, vec2 gains, uint samples) {
                                                       : clamp(gains.x / sum, guide.at[0].leastShare, guide.at[0].mostShare);
 }
 
-uint drawnCell(GuidePtr guide, vec3 point, vec3 facing, inout Rng rng) {
+uint drawnCell(GuidePtr guide, GridPlace place, inout Rng rng) {
   const bool coarse = kGuideStatic && rngFloat(rng) >= guide.at[0].adaptiveShare;
-  const CellKey key = coarse ? staticKey(guide, point, rng) : adaptiveKey(guide, point, facing, kGuideNormals, rng);
+  const CellKey key = coarse ? staticKey(guide, place.point, rng) : adaptiveKey(guide, place, kGuideNormals, rng);
   return findCell(guide.at[0].cells, key, guide.at[0].window);
 }
 
 // The fine cell if it has learnt enough, else the coarse one.
-uint fittedCell(GuidePtr guide, vec3 point, vec3 facing, inout Rng rng) {
-  const CellKey fine = adaptiveKey(guide, point, facing, kGuideNormals, rng);
+uint fittedCell(GuidePtr guide, GridPlace place, inout Rng rng) {
+  const CellKey fine = adaptiveKey(guide, place, kGuideNormals, rng);
   uint cell = findCell(guide.at[0].cells, fine, guide.at[0].window);
   if (kGuideStatic && (cell == kNoCell || guide.at[0].cells.at[cell].samples < guide.at[0].fitSamples)) {
-    cell = findCell(guide.at[0].cells, staticKey(guide, point, rng), guide.at[0].window);
+    cell = findCell(guide.at[0].cells, staticKey(guide, place.point, rng), guide.at[0].window);
   }
   return cell;
 }
 
-// Loads the states of the vertex at `point` of the store's space. `horizon`: the normal that lobes must lie above, 0: any
-// direction counts. `facing`: what stands for a normal in keys.
-void loadMixture(GuidePtr guide, vec3 point, vec3 horizon, vec3 facing, inout Rng rng) {
+// Loads the states of the vertex at `point` of the store's space from the cells at `place`. `horizon`: the normal that
+// lobes must lie above, 0: any direction counts.
+void loadMixture(GuidePtr guide, GridPlace place, vec3 point, vec3 horizon, inout Rng rng) {
   clearMixture();
   vec2 gains = vec2(0.0);
   uint samples = 0u;
   uint found = 0u;
   [[unroll]] for (uint load = 0u; load < kGuideLoads; ++load) {
-    const uint cell = kGuideFit ? fittedCell(guide, point, facing, rng) : drawnCell(guide, point, facing, rng);
+    const uint cell = kGuideFit ? fittedCell(guide, place, rng) : drawnCell(guide, place, rng);
     if (kGuideShare && cell != kNoCell) {
       const vec2 own = vec2(guide.at[0].cells.at[cell].scatterGain, guide.at[0].cells.at[cell].guideGain);
       const vec2 squared = own * own;

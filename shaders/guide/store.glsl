@@ -31,7 +31,7 @@ uint claimCell(GuidePtr guide, uint first, uint fingerprint) {
   [[dont_unroll]] for (uint i = 0u; i < kGuideStates; ++i) {
     guide.at[0].states.at[oldest * kGuideStates + i].weight = 0.0;
   }
-  cells.at[oldest] = GuideCell(fingerprint, guide.at[0].round, 0.0, 0.0, 0u);
+  cells.at[oldest] = GuideCell(fingerprint, guide.at[0].round, 0.0, 0.0, 0.0, 0u);
   return oldest;
 }
 
@@ -134,11 +134,21 @@ void writeFit(GuidePtr guide, GuideUpdate update) {
   if (!(update.state.weight >= 0.0 && update.state.weight <= kMostChainWeight)) {
     return; // states of such weights would be unsound
   }
-  const uint cell = claimCell(guide, update.place, update.fingerprint);
-  const ChainState taken = update.state;
-  addShare(guide, cell, vec2(taken.weight * sqrt(taken.spread), taken.weight * safeSqrt(1.0 - taken.spread)));
+  ChainState taken = update.state;
+  taken.time = taken.time >= 0.0 ? min(taken.time, 1e6) : 0.0; // products with weights are finite
+  uint cell;
+  if (taken.weight > 0.0) {
+    cell = claimCell(guide, update.place, update.fingerprint);
+    addShare(guide, cell, vec2(taken.weight * sqrt(taken.spread), taken.weight * safeSqrt(1.0 - taken.spread)));
+  } else {
+    cell = findCell(guide.at[0].cells, CellKey(update.place, update.fingerprint), guide.at[0].window);
+    if (cell == kNoCell) {
+      return; // a miss says nothing of a cell that has found nothing
+    }
+  }
   fitCell(guide, cell, guide.at[0].cells.at[cell].samples,
-          FitSample(update.point, taken.target, chainVelocity(taken), taken.weight), taken.evidence);
+          FitSample(update.point, taken.target, chainVelocity(taken), taken.weight, taken.time, chainCount(taken) > 0u),
+          taken.evidence);
 }
 
 void carryOut(GuidePtr guide, GuideUpdate update) {

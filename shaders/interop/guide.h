@@ -5,6 +5,7 @@
 #define TYNDALL_INTEROP_GUIDE_H
 
 #include "interop/basic.h"
+#include "interop/guide_distance.h"
 
 GPU_BEGIN
 
@@ -29,7 +30,7 @@ struct ChainState {
                        // rest on
   float time;          // of the last update [s]
   uint velocityXY;     // of the target, two halves [units/s]
-  uint velocityZCount; // low half: z; high half: number of samples
+  uint velocityZCount; // low half: z; high half: number of samples, or in a fitted cell its runs of misses
 };
 GPU_BUFFER(ChainState)
 
@@ -39,6 +40,7 @@ struct GuideCell {
   uint stamp;          // round of the last write
   float scatterGain;   // root of the sum of squared scores that scattering's own directions account for
   float guideGain;     // ... and that the lobes do
+  float scatterWeight; // where states are fitted: part of the mean score that scattering's own directions explain
   uint samples;        // that the gains, and fitted states, are made of
 };
 GPU_BUFFER(GuideCell)
@@ -82,11 +84,12 @@ struct GuideRecord {
   vec3 left;           // ... and when the path's own ray left, the vertex' light sample being in
   vec3 score;          // of the cache: what the direction found, over its density
   float scatterPart;   // of the density: by scattering's own directions, [0, 1]
+  float scatterPdf;    // of scattering's own directions [1/sr]
   float meanWeight;    // of the loaded states, empty ones counted
   float mu[3];         // of the chosen lobe
   float kappa;
   uint cell;           // whose share is learnt, or kNoCell; in screen space: the pixel's chain
-  uint source;         // the state that drew the direction, or kNoState
+  uint source;         // the state that drew the direction (fitted cells: any), or kNoState
   ChainState state;    // its copy; empty if scattering drew the direction
 };
 GPU_BUFFER(GuideRecord)
@@ -108,8 +111,9 @@ struct GuideUpdate {
   uint fingerprint;    // Chain, Radiance, Fit: of the vertex; Sample, Miss: bits of the weight that drew
   vec3 point;          // Sample, Fit: where the direction was drawn
   ChainState state;    // Sample: its target and velocity, weight = score, evidence = 1 if accepted; Miss: weight = score;
-                       // Share: weight, spread = gains; Radiance: target = sample; Fit: as Sample, spread =
-                       // scattering's part of the density, evidence = a random number
+                       // Share: weight, spread = gains; Radiance: target = sample; Fit: as Sample, but weight = 0 if
+                       // it has found nothing, spread = scattering's part of the density, time = scattering's own
+                       // density, evidence = a random number, count = 1 if a lobe drew it
 };
 GPU_BUFFER(GuideUpdate)
 
@@ -122,6 +126,8 @@ struct GuideCounters {
   uint forgotten;      // states that lost weight
   uint evicted;        // cells that another vertex took over
   uint unsound;        // scores that were not finite
+  uint distanceRays;   // camera rays that found distance chains
+  uint distanceGuided; // ... whose distance they drew
 };
 GPU_BUFFER(GuideCounters)
 
@@ -135,7 +141,9 @@ struct Guide {
   GPU_PTR(GuideCounters) counters;
   GPU_PTR(GuideUpdate) log;       // of writes to the store, which the pass guide_apply carries out
   GPU_PTR(uint) logCounts;        // kGuideOrdered: of those of each pixel; else of all together, more than fit counted
+  GuideDistances distance;        // kGuideDistances
   vec3 camera;         // where cells are finest
+  vec3 cameraBefore;   // ... in the frame before
   vec3 shift;          // from centred world space to the store's
   GuideLevels levels;
   GuideLevels radianceLevels;
@@ -167,6 +175,7 @@ struct Guide {
   float time;          // of the frame [s]
   float frameTime;     // since the frame before [s]
   float mostTime;      // a target is moved ahead for at most this long [s]
+  float mostStep;      // what moves further from frame to frame has jumped: that foretells nothing
   float farDistance;   // where targets at infinity stand
   uint round;          // of learning, counted on
   uint mostRecords;    // vertices of a path that learn

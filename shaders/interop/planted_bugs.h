@@ -31,6 +31,7 @@ GPU_CONST uint kBugChosenLobe = 40;     // guiding: of the lobes' density the ch
 GPU_CONST uint kBugScatterShare = 41;   // guiding: scattering's density in full, not by its share of the mixture
 GPU_CONST uint kBugLightByScatter = 42; // guiding: light samples weighted as if scattering drew all directions
 GPU_CONST uint kBugNoNeighbours = 43;   // chains in screen space: of the lobes' density the pixel's own part alone
+GPU_CONST uint kBugDistanceWeight = 44; // guided distances: collisions of free flight count as if nothing else reached them
 
 GPU_END
 #endif

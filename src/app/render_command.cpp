@@ -8,6 +8,7 @@
 #include "app/render_picture.h"
 #include "app/render_text.h"
 #include "base/error.h"
+#include "render/distance_frames.h"
 
 #include <spdlog/spdlog.h>
 
@@ -170,17 +171,28 @@ private:
           "same chains; stop by --spp or --time, or give --integrator path");
     }
     scene::GuideSettings settings = prepared.scene.guide;
+    settings.watch = settings.watch && !request_.moments; // whose rounds are shorter than a trial
+    const gpu_scene::Features& features = prepared.gpuScene->features();
+    if (scene::guidesDistances(settings) && (features.chromatic || features.mediumTree)) {
+      spdlog::warn("guide.distance_share: distances are not guided where {}; leave it away",
+                   features.chromatic ? "extinction differs by channel" : "there are so many media");
+      settings.distanceShare = 0.0;
+    }
     const guide::StoreSize size =
-        guide::storeSize(settings, std::size_t(prepared.scene.film.size.x) * prepared.scene.film.size.y,
-                         kGuideMemoryShare * allowedBytes(request_, device_));
+        guide::storeSize(settings, prepared.scene.film.size, kGuideMemoryShare * allowedBytes(request_, device_));
     if (!guide_ || !(guide_->store->size() == size)) {
       guide_ = render::GuidePlan{settings, std::make_shared<guide::Store>(device_, size), prepared.gpuScene->centre()};
       guide_->settings.unit = render::guideUnit(settings, *prepared.gpuScene);
       guideCamera_.reset();
     }
     guide_->before = std::exchange(guideCamera_, prepared.scene.camera);
+    if (guide_->before) {
+      render::moveDistances(*guide_->store, settings,
+                            {*guide_->before, prepared.scene.camera, prepared.scene.film.size});
+    }
     settings.unit = guide_->settings.unit; // cells stay what they are where bounds move
     guide_->settings = settings;
+    guide_->samples = stopRule(request_, prepared.scene).samples;
     guide_->deterministic = prepared.scene.render.deterministic;
     guide_->frameTime = 1.0 / prepared.scene.animation.framesPerSecond;
     guide_->time = double(frame.value_or(0)) * guide_->frameTime;

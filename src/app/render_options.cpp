@@ -60,6 +60,9 @@ void addFilm(CLI::App& command, RenderRequest& request) {
       ->type_name("a,b");
   command.add_flag("--guide-views", request.guideViews,
                    "for debugging: layers guide.* in the EXR, what has been learnt of each pixel's first vertex");
+  command.add_flag("--moments", request.moments,
+                   "for denoisers: layer second_moment.Y in the EXR, the mean square of the samples' luminance; each "
+                   "sample is a dispatch of its own");
   command.add_flag("--transparent", request.transparent, "leave the background out of R, G, B (it gets its own layer)");
   text(
       command, "--exposure",
@@ -132,8 +135,8 @@ void addWork(CLI::App& command, RenderRequest& request) {
       [&request] {
         request.overrides.push_back({"render.deterministic", "true"});
       },
-      "the same bits from every run, of guided pictures too (but screen-chains), whatever the threads; slower, see "
-      "docs/guiding.md");
+      "the same bits from every run, of guided pictures too (but not with screen-chains or guided distances), whatever "
+      "the threads; slower, see docs/guiding.md");
   text(
       command, "--rays",
       [&request](const std::string& value) {

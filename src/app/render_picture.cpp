@@ -30,13 +30,6 @@ std::string errorInWords(const film::ErrorEstimate& error) {
                      std::isfinite(error.upper) ? percent(error.upper) : "an unknown bound");
 }
 
-render::StopRule stopRule(const RenderRequest& request, const scene::Scene& scene) {
-  const bool otherLimit = request.seconds || request.error;
-  return {.samples = otherLimit ? request.samples.value_or(kNoSampleLimit) : scene.render.samples,
-          .seconds = request.seconds,
-          .error = request.error};
-}
-
 film::Film renderWithProgress(const PictureContext& context, const Prepared& prepared, const OutputFiles& files,
                               render::RenderReport& report) {
   const RenderRequest& request = context.request;
@@ -45,6 +38,7 @@ film::Film renderWithProgress(const PictureContext& context, const Prepared& pre
   options.crop = request.crop.value_or(film::Window{});
   options.stop = stopRule(request, prepared.scene);
   options.seed = prepared.scene.render.seed;
+  options.moments = request.moments;
   options.secondsBefore = prepared.timings.estimator;
   options.checkpoint = files.checkpoint;
   options.checkpointSeconds = request.checkpointSeconds;
@@ -68,6 +62,16 @@ void settleCheckpoint(const PictureContext& context, const OutputFiles& files, b
   }
 }
 
+/// Mean over the samples of each pixel; 0 without samples.
+std::vector<float> secondMoments(const film::Film& film, const std::vector<double>& squares) {
+  std::vector<float> means;
+  for (std::size_t pixel = 0; pixel < squares.size(); ++pixel) {
+    const std::uint32_t samples = film.samples(pixel);
+    means.push_back(samples > 0 ? float(squares[pixel] / samples) : 0.0f);
+  }
+  return means;
+}
+
 void writeFiles(const PictureContext& context, const Prepared& prepared, const OutputFiles& files, RenderRecord& record,
                 film::Film& film) {
   const Stopwatch watch;
@@ -84,6 +88,9 @@ void writeFiles(const PictureContext& context, const Prepared& prepared, const O
   std::map<std::string, std::vector<float>> layers;
   if (context.request.guideViews) {
     layers = render::guideViews(*prepared.estimator, film);
+  }
+  if (context.request.moments) {
+    layers["second_moment.Y"] = secondMoments(film, record.report.sampleSquares);
   }
   record.png = writePicture(files.exr, film, picture, layers).report;
   if (!files.part.empty()) {
@@ -168,6 +175,13 @@ double plannedBytes(const PictureContext& context, const Prepared& prepared) {
 }
 
 } // namespace
+
+render::StopRule stopRule(const RenderRequest& request, const scene::Scene& scene) {
+  const bool otherLimit = request.seconds || request.error;
+  return {.samples = otherLimit ? request.samples.value_or(kNoSampleLimit) : scene.render.samples,
+          .seconds = request.seconds,
+          .error = request.error};
+}
 
 render::EstimatorOptions estimatorOptions(const RenderRequest& request, const Prepared& prepared) {
   const bool deterministic = prepared.scene.render.deterministic; // then the time they take decides nothing

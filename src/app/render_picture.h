@@ -30,6 +30,9 @@ struct PictureContext {
   Say say;
 };
 
+/// What ends a picture.
+render::StopRule stopRule(const RenderRequest& request, const scene::Scene& scene);
+
 render::EstimatorOptions estimatorOptions(const RenderRequest& request, const Prepared& prepared);
 
 /// Renders one picture, writes its files and says what came out.

@@ -69,6 +69,10 @@ void checkCombinations(const RenderRequest& request) {
     fail("--preview is the march without its correction, others have none; leave --preview or {} away",
          request.deltaTracking ? "--tracker" : "--estimator");
   }
+  if (request.moments && (request.resume || request.error)) {
+    fail("--moments: squares of samples are in no checkpoint, and --error leaves samples out of the picture; leave {} away",
+         request.resume ? "--resume" : "--error");
+  }
   if (request.method.value_or(render::Method::Tracking) != render::Method::Tracking && request.deltaTracking) {
     fail("--tracker: only tracking has a choice of trackers; give it with --estimator tracking, or leave it away");
   }

@@ -28,6 +28,7 @@ struct RenderRequest {
   std::vector<scene::Override> overrides;
   std::vector<std::string> aovs;
   bool guideViews = false; ///< layers of what guides the paths
+  bool moments = false;    ///< a layer of second moments
   bool transparent = false;
   std::optional<double> exposure; ///< stops
   bool chooseExposure = false;    ///< --exposure auto

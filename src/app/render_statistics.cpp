@@ -103,6 +103,14 @@ Json guidingJson(const RenderRecord& record, const render::GuideReport& guide) {
             {"unsound_states", guide.occupancy.unsound}}}};
 }
 
+/// Of camera rays.
+Json distancesJson(const render::GuideReport& guide) {
+  return {{"rays", guide.totals.distanceRays},
+          {"guided_share", ratio(guide.totals.distanceGuided, guide.totals.distanceRays)},
+          {"states", guide.size.distanceVertices() * guide.size.distanceStates},
+          {"states_taken", guide.occupancy.distances}};
+}
+
 } // namespace
 
 std::string statisticsJson(const RenderRecord& record, const film::Metadata& metadata) {
@@ -131,6 +139,7 @@ std::string statisticsJson(const RenderRecord& record, const film::Metadata& met
   }
   if (report.guide) {
     root["guiding"] = guidingJson(record, *report.guide);
+    root["guiding"]["distances"] = distancesJson(*report.guide);
   }
   root["density_lookups"] = totals.lookups;
   root["segments"] = totals.segments;

@@ -10,7 +10,7 @@ namespace tyndall::guide {
 namespace {
 
 /// What another layout of cells or of this file changes.
-constexpr std::uint64_t kLayout = 0x73'6e69'6168 + (std::uint64_t(sizeof(interop::GuideCell)) << 40) +
+constexpr std::uint64_t kLayout = 0x74'6e69'6168 + (std::uint64_t(sizeof(interop::GuideCell)) << 40) +
                                   (std::uint64_t(sizeof(interop::ChainState)) << 48) +
                                   (std::uint64_t(sizeof(interop::RadianceCell) + sizeof(interop::ScreenChain)) << 56);
 
@@ -18,7 +18,8 @@ struct Header {
   std::uint64_t layout = kLayout;
   StoreSize size;
   std::uint32_t round = 0;
-  std::uint32_t cells = 0; ///< that follow, each with its index and states; then those of the cache, then all of the screen
+  std::uint32_t cells = 0; ///< that follow, each with its index and states; then those of the cache, then all of the
+                           ///< screen, then distance chains and what is learnt of their share
   std::uint32_t radiance = 0;
 };
 
@@ -88,7 +89,8 @@ std::vector<std::byte> packStore(const StoreContent& content) {
   header.cells = cells.takenCount();
   header.radiance = radiance.takenCount();
   Writer writer(sizeof(header) + header.cells * (sizeof(std::uint32_t) + cells.cellBytes + stateBytes) +
-                header.radiance * (sizeof(std::uint32_t) + radiance.cellBytes) + content.screen.size());
+                header.radiance * (sizeof(std::uint32_t) + radiance.cellBytes) + content.screen.size() +
+                content.distances.size() + content.distanceShares.size());
   writer.put(&header, sizeof(header));
   for (std::uint32_t i = 0; i < cells.count(); ++i) {
     if (cells.taken(i)) {
@@ -104,6 +106,8 @@ std::vector<std::byte> packStore(const StoreContent& content) {
     }
   }
   writer.put(content.screen.data(), content.screen.size());
+  writer.put(content.distances.data(), content.distances.size());
+  writer.put(content.distanceShares.data(), content.distanceShares.size());
   return writer.take();
 }
 
@@ -135,6 +139,11 @@ StoreContent unpackStore(std::span<const std::byte> bytes) {
   }
   content.screen.resize(header.size.screen * sizeof(interop::ScreenChain));
   reader.get(content.screen.data(), content.screen.size());
+  content.distances.resize(header.size.distanceVertices() * header.size.distanceStates *
+                           sizeof(interop::DistanceState));
+  reader.get(content.distances.data(), content.distances.size());
+  content.distanceShares.resize(header.size.distanceVertices() * sizeof(interop::DistanceShare));
+  reader.get(content.distanceShares.data(), content.distanceShares.size());
   reader.checkEnd();
   return content;
 }

@@ -79,6 +79,7 @@ Race race(const gpu::Device& device, const GuidingScene& scene, const Field& fie
   for (const Contestant& each : field) {
     std::vector<scene::Override> overrides = each.overrides;
     overrides.push_back({"render.light_sampling", lightSampling ? "true" : "false"});
+    overrides.push_back({"render.samples", std::to_string(options.samples)});
     runs.emplace_back(each.name, device, scene, scene.with(overrides));
   }
   for (std::uint32_t seed = 1; seed <= options.seeds; ++seed) {

@@ -1,48 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/error.h"
 #include "microbench/guiding.h"
+#include "microbench/option_values.h"
 
 #include <algorithm>
-#include <charconv>
 
 namespace tyndall::microbench {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::uint32_t kLargestEdge = 8192;
-constexpr const char* kGuidePrefix = "guide.";
-
 /// The scenes of an ablation where none are named: a hidden light, a door ajar, many lamps.
 const std::vector<std::string> kAblationScenes{"hidden", "door", "small-lamps"};
-
-[[noreturn]] void refuse(const std::string& option, const std::string& value, const std::string& why) {
-  throw CLI::ValidationError(option, fmt::format("{}: {}", value, why));
-}
-
-glm::uvec2 parseSize(const std::string& text) {
-  glm::uvec2 size(0);
-  const char* end = text.data() + text.size();
-  const auto width = std::from_chars(text.data(), end, size.x);
-  if (width.ec == std::errc() && width.ptr != end && *width.ptr == 'x') {
-    const auto height = std::from_chars(width.ptr + 1, end, size.y);
-    const bool whole = height.ec == std::errc() && height.ptr == end;
-    if (whole && size.x > 0 && size.y > 0 && std::max(size.x, size.y) <= kLargestEdge) {
-      return size;
-    }
-  }
-  refuse("--size", text, fmt::format("write width x height in pixels, such as 128x128, {} at most", kLargestEdge));
-}
-
-scene::Override parseOverride(const std::string& text) {
-  const std::size_t equals = text.find('=');
-  if (equals == std::string::npos || !text.starts_with(kGuidePrefix)) {
-    refuse(
-        "--set", text,
-        "write a path of the section guide, = and a value, such as guide.states=2; what else a scene has must be the "
-        "same for all");
-  }
-  return {text.substr(0, equals), text.substr(equals + 1)};
-}
 
 /// What is compared with comes first, whether it is named or not.
 std::vector<std::string> pathFirst(std::vector<std::string> integrators) {
@@ -72,17 +40,7 @@ void addWhat(CLI::App& command, GuidingOptions& options) {
       ->check(CLI::IsMember({"both", "on", "off"}));
   command.add_flag("--ablate", options.ablate,
                    "Each setting of mcpg changed alone, compared with mcpg as it is, instead of the integrators");
-  command
-      .add_option_function<std::vector<std::string>>(
-          "--set",
-          [&options](const std::vector<std::string>& values) {
-            std::transform(values.begin(), values.end(), std::back_inserter(options.overrides), parseOverride);
-          },
-          "Changes the guide in all rows that are guided; can be repeated")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->allow_extra_args(false)
-      ->type_name("guide.key=value");
+  addGuideOverrides(command, options.overrides);
 }
 
 std::vector<std::string> namesIn(const fs::path& folder) {
@@ -106,10 +64,7 @@ std::shared_ptr<GuidingOptions> addGuidingOptions(CLI::App& command) {
   auto shared = std::make_shared<GuidingOptions>();
   GuidingOptions& options = *shared;
   addWhat(command, options);
-  command
-      .add_option_function<std::string>(
-          "--size", [&options](const std::string& text) { options.size = parseSize(text); }, "Of the pictures, pixels")
-      ->type_name("WxH");
+  addSize(command, options.size);
   command.add_option("--spp", options.samples, "Samples per pixel of a render")->check(CLI::Range(1, 1 << 20));
   command.add_option("--seeds", options.seeds, "Renders of each row")->check(CLI::Range(3, 1000));
   command.add_option("--device", options.device, "Index or part of the name");

@@ -85,13 +85,14 @@ render::GuidePlan GuidingRun::plan() const {
   return {.settings = settings_.guide,
           .store = store_,
           .origin = scene_->gpuScene().centre(),
+          .samples = settings_.render.samples,
           .deterministic = settings_.render.deterministic};
 }
 
 void GuidingRun::makeStore() {
-  const std::size_t pixels = std::size_t(settings_.film.size.x) * settings_.film.size.y;
-  store_ = std::make_shared<guide::Store>(
-      *device_, guide::storeSize(settings_.guide, pixels, kStoreShare * double(device_->info().memoryBytes)));
+  store_ =
+      std::make_shared<guide::Store>(*device_, guide::storeSize(settings_.guide, settings_.film.size,
+                                                                kStoreShare * double(device_->info().memoryBytes)));
 }
 
 void GuidingRun::render(std::uint32_t samples, std::uint32_t seed) {

@@ -2,6 +2,8 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "microbench/commands.h"
+#include "microbench/frames.h"
+#include "microbench/frames_sheet.h"
 #include "microbench/guiding.h"
 #include "microbench/text_file.h"
 #include "volume/load.h"
@@ -93,10 +95,23 @@ int main(int argc, char** argv) {
   CLI::App& guiding = *app.add_subcommand(
       "guiding", "Variance times time of guided paths beside unguided ones, and whether their means agree");
   const std::shared_ptr<GuidingOptions> guidingOptions = addGuidingOptions(guiding);
+  CLI::App& frames = *app.add_subcommand(
+      "guiding-frames", "Errors of frames in which a lamp goes out, moves or jumps or the camera cuts, guided and not");
+  const std::shared_ptr<FramesOptions> framesOptions = addFramesOptions(frames);
+  CLI::App& sheet = *app.add_subcommand("guiding-sheet", "Frames of a sequence side by side, guided and not, as a PNG");
+  const std::shared_ptr<SheetOptions> sheetOptions = addSheetOptions(sheet);
   CLI11_PARSE(app, argc, argv);
   try {
     if (app.got_subcommand(&guiding)) {
       runGuiding(*guidingOptions);
+      return 0;
+    }
+    if (app.got_subcommand(&sheet)) {
+      runSheet(*sheetOptions);
+      return 0;
+    }
+    if (app.got_subcommand(&frames)) {
+      runFrames(*framesOptions);
       return 0;
     }
     for (const Command& command : kCommands) {

@@ -2,8 +2,10 @@
 #include "render/guide_watch.h"
 
 #include "film/film.h"
+#include "math/colour.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <functional>
 #include <numeric>
@@ -14,11 +16,17 @@ namespace {
 /// Pixels come in an order that keeps neighbours together.
 constexpr std::size_t kGroup = 64;
 
-constexpr std::uint32_t kGuidedBatch = 1;
-constexpr std::uint32_t kPlainBatch = 2;
+/// A trial's part of the samples: guided ones and twice as many that learn cost a tenth where they take three times as
+/// long.
+constexpr std::uint32_t kTrialPart = 64;
+/// Each trial is two halves, and a longer one knows no more that matters.
+constexpr std::uint32_t kLeastTrial = 2;
+constexpr std::uint32_t kMostTrial = film::kBatchSamples;
+/// Below, the least trial would be too large a part.
+constexpr std::uint32_t kLeastPlanned = 64;
 
 double luminance(const interop::PixelSums& sums) {
-  return 0.2126 * double(sums.moments[0]) + 0.7152 * double(sums.moments[1]) + 0.0722 * double(sums.moments[2]);
+  return tyndall::luminance({sums.moments[0], sums.moments[1], sums.moments[2]});
 }
 
 } // namespace
@@ -62,17 +70,42 @@ std::optional<double> GuideWatch::gain() const {
   return costGuided > 0.0 && std::isfinite(costPlain) ? costPlain / costGuided : 1.0;
 }
 
+GuideTrial::GuideTrial(bool wanted, std::uint32_t planned) {
+  const std::uint32_t part = std::clamp(planned / kTrialPart, kLeastTrial, kMostTrial);
+  length_ = wanted && planned >= kLeastPlanned ? std::bit_floor(part) : 0;
+}
+
+void GuideTrial::begin(SampleRange samples) {
+  if (samples.first == 0) {
+    begun_ = true;
+    watch_ = {};
+  }
+}
+
+GuideTrial::Phase GuideTrial::phase(std::uint32_t sample) const {
+  if (length_ == 0 || !begun_) {
+    return Phase::Settled;
+  }
+  // Learning takes two lengths, each trial one.
+  return static_cast<Phase>(std::min(std::max(sample / length_, 1u), std::uint32_t(Phase::Settled)));
+}
+
+SampleRange GuideTrial::leading(SampleRange samples) const {
+  SampleRange result{samples.first, 1};
+  while (result.count < samples.count && phase(samples.first + result.count) == phase(samples.first)) {
+    ++result.count;
+  }
+  return result;
+}
+
 bool GuideTrial::watched(SampleRange samples) const {
-  const std::uint32_t batch = samples.first / film::kBatchSamples;
-  return wanted_ && begun_ && samples.count == film::kBatchSamples && (batch == kGuidedBatch || batch == kPlainBatch);
+  const Phase now = phase(samples.first);
+  return (now == Phase::Guided || now == Phase::Plain) && samples.count == length_;
 }
 
 bool GuideTrial::guided(SampleRange samples) const {
-  if (watched(samples)) {
-    return samples.first / film::kBatchSamples == kGuidedBatch;
-  }
-  return !wanted_ || !begun_ || samples.first / film::kBatchSamples <= kPlainBatch ||
-         watch_.gain().value_or(1.0) >= 1.0;
+  const Phase now = phase(samples.first);
+  return now == Phase::Settled ? watch_.gain().value_or(1.0) >= 1.0 : now != Phase::Plain;
 }
 
 void GuideTrial::take(SampleRange samples, std::span<const interop::PixelSums> first,
@@ -80,9 +113,11 @@ void GuideTrial::take(SampleRange samples, std::span<const interop::PixelSums> f
   watch_.take(guided(samples) ? GuideWatch::Trial::Guided : GuideWatch::Trial::Plain, first, second, seconds);
 }
 
-void addTo(interop::PixelSums& sum, const interop::PixelSums& term) {
-  std::transform(std::begin(sum.moments), std::end(sum.moments), term.moments, sum.moments, std::plus<>());
-  std::transform(std::begin(sum.extras), std::end(sum.extras), term.extras, sum.extras, std::plus<>());
+void addTo(std::span<interop::PixelSums> sums, std::span<const interop::PixelSums> terms) {
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    std::ranges::transform(sums[i].moments, terms[i].moments, sums[i].moments, std::plus<>());
+    std::ranges::transform(sums[i].extras, terms[i].extras, sums[i].extras, std::plus<>());
+  }
 }
 
 } // namespace tyndall::render

@@ -12,12 +12,12 @@
 namespace tyndall::render {
 
 /// Whether guiding pays on a picture: relative variance times time with it over that without. Each of the two takes a
-/// batch of the picture in two halves, whose difference says how much noise there is.
+/// number of its samples in two halves, whose difference says how much noise there is.
 class GuideWatch {
 public:
   enum class Trial { Guided, Plain };
 
-  /// Both halves of one trial's batch: sums over the samples of a half, the same pixels in the same order in each.
+  /// Both halves of one trial: sums over the samples of a half, the same pixels in the same order in each.
   void take(Trial trial, std::span<const interop::PixelSums> first, std::span<const interop::PixelSums> second,
             double seconds);
 
@@ -38,16 +38,20 @@ private:
   Measure plain_;
 };
 
-/// When a render tries what: its first batch learns, the second is the guided trial, the third the plain one, and from
-/// the fourth on it does what has won. A render that is shorter, or goes on from a later batch, stays guided.
+/// When a render tries what: a thirty-second of its samples learn, half as many are the guided trial, as many the plain
+/// one, and from there on it does what has won. A render that is too short for that, or goes on behind it, stays
+/// guided.
 class GuideTrial {
 public:
-  explicit GuideTrial(bool wanted) : wanted_(wanted) {}
+  /// @param planned samples per pixel.
+  GuideTrial(bool wanted, std::uint32_t planned);
 
-  /// Before each run: without the first batch there is nothing learnt to be tried.
-  void begin(SampleRange samples) { begun_ = begun_ || samples.first == 0; }
+  /// Before each run: without the first samples there is nothing learnt to be tried.
+  void begin(SampleRange samples);
 
-  /// Whether these samples are a trial's: a whole batch.
+  /// The first of these samples that belong together: to one trial, to learning, or to what follows.
+  SampleRange leading(SampleRange samples) const;
+  /// Whether these samples are a whole trial.
   bool watched(SampleRange samples) const;
   bool guided(SampleRange samples) const;
   void take(SampleRange samples, std::span<const interop::PixelSums> first, std::span<const interop::PixelSums> second,
@@ -55,11 +59,14 @@ public:
   std::optional<double> gain() const { return watch_.gain(); }
 
 private:
-  bool wanted_;
+  enum class Phase : std::uint32_t { Learning = 1, Guided, Plain, Settled };
+  Phase phase(std::uint32_t sample) const;
+
+  std::uint32_t length_; ///< of a trial [samples]; 0: there is none
   bool begun_ = false;
   GuideWatch watch_;
 };
 
-void addTo(interop::PixelSums& sum, const interop::PixelSums& term);
+void addTo(std::span<interop::PixelSums> sums, std::span<const interop::PixelSums> terms);
 
 } // namespace tyndall::render

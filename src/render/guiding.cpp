@@ -13,6 +13,8 @@ namespace {
 constexpr double kUnitsOfDiagonal = 1000.0;
 /// Where targets at infinity stand.
 constexpr double kFarUnits = 10000.0;
+/// A tenth of the scene from one frame to the next.
+constexpr double kJumpUnits = 100.0;
 /// Difference in distance from the camera at which a state in screen space counts for 1/e.
 constexpr double kScreenDepthUnits = 10.0;
 
@@ -34,6 +36,11 @@ double guideUnit(const scene::GuideSettings& settings, const gpu_scene::GpuScene
   return (diagonal > 0.0 ? diagonal : fromCamera > 0.0 ? fromCamera : 1.0) / kUnitsOfDiagonal;
 }
 
+bool looksBack(const GuidePlan& plan, const gpu_scene::GpuScene& scene) {
+  return plan.settings.previousLookup && plan.settings.preset != scene::Integrator::ScreenChains && plan.before &&
+         (scene.features().motion || plan.before->position != scene.cameraPosition());
+}
+
 void setGuideSpec(const GuidePlan& plan, const gpu_scene::Features& features, passes::PathSpec& spec) {
   const scene::GuideSettings& settings = plan.settings;
   // A mixture has room for no more: lobes beyond would be lost, and the picture biased.
@@ -51,12 +58,15 @@ void setGuideSpec(const GuidePlan& plan, const gpu_scene::Features& features, pa
   spec.kGuideLearn = settings.learn;
   spec.kGuideMotion = features.motion;
   spec.kGuideOrdered = plan.ordered();
+  // Channels of their own would need densities of their own, and many media a walk over them at every event.
+  spec.kGuideDistances = scene::guidesDistances(settings) && !features.chromatic && !features.mediumTree;
 }
 
 Guiding::Guiding(const gpu::Device& device, const gpu_scene::GpuScene& scene, const GuidePlan& plan,
                  const passes::PathSpec& spec, std::uint32_t pixels)
     : plan_(plan), unit_(guideUnit(plan.settings, scene)),
       records_(device, std::size_t(pixels) * plan.settings.records, gpu::Memory::Device),
+      distanceRecords_(device, spec.kGuideDistances ? pixels : 0, gpu::Memory::Device),
       counters_(device, 1, gpu::Memory::Host), header_(device, 1, gpu::Memory::Host) {
   if (plan.settings.learn && !spec.kGuideScreen) {
     log_.emplace(device, plan.settings, plan.store->size(), spec, pixels);
@@ -70,6 +80,11 @@ interop::Guide Guiding::describe(const gpu_scene::GpuScene& scene) const {
   plan_.store->describe(guide);
   guide.records = records_.ptr();
   guide.counters = counters_.ptr();
+  guide.distance.records = distanceRecords_.ptr();
+  guide.distance.loads = settings.distanceLoads;
+  guide.distance.width = float(settings.distanceWidth);
+  guide.distance.mostShare = float(settings.distanceShare);
+  guide.distance.priorSigma = float(settings.distanceSigma * unit_);
   if (log_) {
     log_->describe(guide);
   }
@@ -81,6 +96,7 @@ interop::Guide Guiding::describe(const gpu_scene::GpuScene& scene) const {
   guide.screenDepth = float(kScreenDepthUnits * unit_);
   if (plan_.before) {
     guide.rasterBefore = gpu_scene::rasterFromWorld(*plan_.before, scene.imageSize(), plan_.origin);
+    guide.cameraBefore = glm::vec3(plan_.before->position - plan_.origin);
     guide.frameRound = plan_.store->round() + 1;
   }
   guide.staticWidth = float(settings.staticWidth * unit_);
@@ -103,6 +119,7 @@ interop::Guide Guiding::describe(const gpu_scene::GpuScene& scene) const {
   guide.time = float(plan_.time);
   guide.frameTime = float(plan_.frameTime);
   guide.mostTime = float(settings.mostTime);
+  guide.mostStep = float(kJumpUnits * unit_);
   guide.farDistance = float(kFarUnits * unit_);
   guide.mostRecords = settings.records;
   return guide;
@@ -130,6 +147,8 @@ void Guiding::collect() {
   totals_.forgotten += counters.forgotten;
   totals_.evicted += counters.evicted;
   totals_.unsound += counters.unsound;
+  totals_.distanceRays += counters.distanceRays;
+  totals_.distanceGuided += counters.distanceGuided;
   totals_.lost += log_ ? log_->takeLost() : 0;
   counters_.fillZero();
 }
@@ -145,8 +164,9 @@ std::string Guiding::space() const {
 double guidingBytes(const GuidePlan& plan, std::uint32_t pixels) {
   const bool logs = plan.settings.learn && plan.settings.preset != scene::Integrator::ScreenChains;
   const double log = logs ? guideLogBytes(plan.settings, plan.ordered(), pixels) : 0.0;
-  return double(pixels) * plan.settings.records * sizeof(interop::GuideRecord) + log + sizeof(interop::Guide) +
-         sizeof(interop::GuideCounters);
+  const double distances = scene::guidesDistances(plan.settings) ? sizeof(interop::DistanceRecord) : 0.0;
+  return double(pixels) * (plan.settings.records * sizeof(interop::GuideRecord) + distances) + log +
+         sizeof(interop::Guide) + sizeof(interop::GuideCounters);
 }
 
 } // namespace tyndall::render

@@ -6,6 +6,7 @@
 #include "passes/path/path_pass.h"
 #include "render/guide_log.h"
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,11 +21,10 @@ struct GuidePlan {
   double time = 0.0;                     ///< of the frame [s]
   double frameTime = 1.0;                ///< since the frame before [s]
   std::optional<scene::Camera> before{}; ///< of the frame before, in whose picture the store's chains lie
+  std::uint32_t samples = std::numeric_limits<std::uint32_t>::max(); ///< per pixel that the picture will have at most
   bool deterministic = false;            ///< the store is written in a fixed order; nothing is decided by time
 
-  bool ordered() const {
-    return deterministic && settings.learn && settings.preset != scene::Integrator::ScreenChains;
-  }
+  bool ordered() const { return deterministic && settings.learn && settings.preset != scene::Integrator::ScreenChains; }
 };
 
 /// Counters over all dispatches so far.
@@ -36,7 +36,9 @@ struct GuideTotals {
   std::uint64_t forgotten = 0;
   std::uint64_t evicted = 0;
   std::uint64_t unsound = 0;
-  std::uint64_t lost = 0; ///< updates that the log had no room for
+  std::uint64_t lost = 0;           ///< updates that the log had no room for
+  std::uint64_t distanceRays = 0;   ///< camera rays that found distance chains
+  std::uint64_t distanceGuided = 0; ///< ... whose distance they drew
 };
 
 /// What guiding came to.
@@ -49,6 +51,9 @@ struct GuideReport {
 
 /// One unit of the guide's lengths, in scene units.
 double guideUnit(const scene::GuideSettings& settings, const gpu_scene::GpuScene& scene);
+
+/// Whether cells are looked up where surfaces and camera were in the frame before: where something has moved.
+bool looksBack(const GuidePlan& plan, const gpu_scene::GpuScene& scene);
 
 /// Specialization of the path pass for the settings.
 void setGuideSpec(const GuidePlan& plan, const gpu_scene::Features& features, passes::PathSpec& spec);
@@ -83,6 +88,7 @@ private:
   GuidePlan plan_;
   double unit_;
   gpu::Buffer<interop::GuideRecord> records_;
+  gpu::Buffer<interop::DistanceRecord> distanceRecords_;
   gpu::Buffer<interop::GuideCounters> counters_;
   std::optional<GuideLog> log_;
   gpu::Buffer<interop::Guide> header_;

@@ -59,8 +59,10 @@ passes::PathSpec pathSpecFor(const gpu_scene::Features& features, const Estimato
 PathTracer::PathTracer(const gpu::Device& device, const gpu_scene::GpuScene& scene, const EstimatorOptions& options)
     : device_(device), scene_(scene), spec_(pathSpecFor(scene.features(), options)), runner_(device, options),
       trial_(options.guide && options.guide->settings.watch && options.guide->settings.learn &&
-             !options.guide->deterministic) {
+                 !options.guide->deterministic,
+             options.guide ? options.guide->samples : 0u) {
   if (options.guide) {
+    spec_.kGuidePrevious = looksBack(*options.guide, scene);
     guiding_ = std::make_unique<Guiding>(device, scene, *options.guide, spec_, chunkPixels());
   }
   choosePass(device, options.rays);
@@ -140,6 +142,22 @@ std::span<const interop::PixelSums> PathTracer::run(std::span<const std::uint32_
                                                     std::uint32_t seed) {
   totals_.samples += std::uint64_t(pixels.size()) * samples.count;
   trial_.begin(samples);
+  const SampleRange leading = trial_.leading(samples);
+  if (leading.count == samples.count) {
+    return runPhase(pixels, samples, seed);
+  }
+  phaseSums_.assign(pixels.size(), {});
+  for (SampleRange left = samples; left.count > 0;) {
+    const SampleRange next = trial_.leading(left);
+    addTo(phaseSums_, runPhase(pixels, next, seed));
+    left = {left.first + next.count, left.count - next.count};
+  }
+  return phaseSums_;
+}
+
+/// Samples that belong together by the trial's plan.
+std::span<const interop::PixelSums> PathTracer::runPhase(std::span<const std::uint32_t> pixels, SampleRange samples,
+                                                         std::uint32_t seed) {
   return trial_.watched(samples) ? runTrial(pixels, samples, seed)
                                  : runWith(trial_.guided(samples), pixels, samples, seed);
 }
@@ -153,10 +171,7 @@ std::span<const interop::PixelSums> PathTracer::runWith(bool guided, std::span<c
   }
   roundSums_.assign(pixels.size(), {});
   for (std::uint32_t done = 0; done < samples.count; done += each) {
-    const auto sums = runRound(guided, pixels, {samples.first + done, std::min(each, samples.count - done)}, seed);
-    for (std::size_t i = 0; i < pixels.size(); ++i) {
-      addTo(roundSums_[i], sums[i]);
-    }
+    addTo(roundSums_, runRound(guided, pixels, {samples.first + done, std::min(each, samples.count - done)}, seed));
   }
   return roundSums_;
 }
@@ -185,7 +200,7 @@ std::span<const interop::PixelSums> PathTracer::runRound(bool guided, std::span<
   return sums;
 }
 
-/// The batch in two halves, timed.
+/// The samples in two halves, timed.
 std::span<const interop::PixelSums> PathTracer::runTrial(std::span<const std::uint32_t> pixels, SampleRange samples,
                                                          std::uint32_t seed) {
   const bool guided = trial_.guided(samples);
@@ -201,9 +216,7 @@ std::span<const interop::PixelSums> PathTracer::runTrial(std::span<const std::ui
   const auto second = runWith(guided, pixels, {half.first + half.count, samples.count - half.count}, seed ^ kApart);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   trial_.take(samples, trialSums_, second, seconds);
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    addTo(trialSums_[i], second[i]);
-  }
+  addTo(trialSums_, second);
   return trialSums_;
 }
 
@@ -224,6 +237,7 @@ std::span<const interop::GuideView> PathTracer::viewGuide(std::span<const std::u
     passes::PathSpec spec = spec_;
     spec.kGuideView = true;
     spec.kGuideLearn = false;
+    spec.kGuideDistances = false;
     spec.kCount = false;
     view_ = std::make_unique<passes::PathPass>(device_, spec, scene_.images(), rays_ ? &rays_->top() : nullptr);
     views_ = gpu::Buffer<interop::GuideView>(device_, chunkPixels(), gpu::Memory::Host);

@@ -39,6 +39,8 @@ private:
                                                std::uint32_t seed);
   std::span<const interop::PixelSums> runTrial(std::span<const std::uint32_t> pixels, SampleRange samples,
                                                std::uint32_t seed);
+  std::span<const interop::PixelSums> runPhase(std::span<const std::uint32_t> pixels, SampleRange samples,
+                                               std::uint32_t seed);
   const passes::PathPass& plainPass();
 
   const gpu::Device& device_;
@@ -50,6 +52,7 @@ private:
   std::unique_ptr<Guiding> guiding_; ///< null: paths are not guided
   std::vector<interop::PixelSums> trialSums_;
   std::vector<interop::PixelSums> roundSums_;
+  std::vector<interop::PixelSums> phaseSums_;
   std::unique_ptr<passes::PathPass> plain_; ///< without guiding, once it is wanted
   std::unique_ptr<passes::PathPass> view_;  ///< of the store, likewise
   gpu::Buffer<interop::GuideView> views_;

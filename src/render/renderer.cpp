@@ -5,6 +5,7 @@
 #include "film/checkpoint.h"
 #include "film/merge.h"
 #include "guide/store_file.h"
+#include "math/colour.h"
 #include "render/coverage.h"
 #include "render/pixel_order.h"
 
@@ -56,6 +57,7 @@ public:
       : scene_(scene), options_(options), report_(report), estimator_(&estimator), device_(device.info().name),
         film_(startFilm(device)), coverage_(sceneCoverage(scene, volumes)), order_(dispatchOrder(film_.window())) {
     estimator_->resetTotals();
+    report_.sampleSquares.assign(options_.moments ? film_.pixels().size() : 0, 0.0);
     report_.mediaPixels = static_cast<std::size_t>(
         std::count_if(order_.begin(), order_.end(), [&](std::uint32_t pixel) { return covered(pixel); }));
     report_.backgroundPixels = order_.size() - report_.mediaPixels;
@@ -210,18 +212,20 @@ private:
   }
 
   /// What learns takes the first batch in rounds over the whole picture, each as long as all before it: later samples
-  /// of it know what earlier ones have found. The film takes the batch as a whole.
+  /// of it know what earlier ones have found. Where squares of samples are wanted, every batch in rounds of one. The
+  /// film takes the batch as a whole.
   void runRounds(const std::vector<std::uint32_t>& pixels, std::uint32_t batch, SampleRange samples) {
     Rounds rounds;
     rounds.batchSamples = samples.count;
-    if (batch == 0 && estimator_->guiding() != nullptr) {
+    if (options_.moments || (batch == 0 && estimator_->guiding() != nullptr)) {
       rounds.sums.resize(pixels.size());
       rounds.taken.resize(pixels.size());
       inRounds_ = true;
     }
     while (rounds.done < samples.count && report_.stoppedBy.empty()) {
       const std::uint32_t left = samples.count - rounds.done;
-      const std::uint32_t count = rounds.sums.empty() ? left : std::min(std::max(rounds.done, 1u), left);
+      const std::uint32_t growing = std::min(std::max(rounds.done, 1u), left);
+      const std::uint32_t count = options_.moments ? 1 : rounds.sums.empty() ? left : growing;
       runPixels(pixels, batch, {samples.first + rounds.done, count}, rounds);
       rounds.done += count;
     }
@@ -229,7 +233,7 @@ private:
     for (std::size_t i = 0; i < rounds.taken.size(); ++i) { // of a batch that was broken off
       if (rounds.taken[i] > 0 && rounds.taken[i] < samples.count) {
         takeBatch(pixels[i], batch, rounds.taken[i], rounds.sums[i]);
-        dropped_ = estimator_->guiding()->deterministic();
+        dropped_ = estimator_->guiding() != nullptr && estimator_->guiding()->deterministic();
       }
     }
   }
@@ -246,6 +250,9 @@ private:
       const bool last = rounds.done + samples.count == rounds.batchSamples;
       for (std::size_t i = 0; i < count; ++i) {
         BatchSums batchSums = toBatchSums(sums[i]);
+        if (options_.moments) {
+          addSquare(filmIndex(chunk[i]), batchSums);
+        }
         if (!rounds.sums.empty()) {
           addTo(rounds.sums[first + i], batchSums);
           rounds.taken[first + i] += samples.count;
@@ -267,6 +274,12 @@ private:
     if (decisions_) {
       decisions_->add(filmIndex(pixel), batch, count, sums);
     }
+  }
+
+  /// Of one sample.
+  void addSquare(std::size_t pixel, const BatchSums& sample) {
+    const double value = luminance({sample.moments[film::R], sample.moments[film::G], sample.moments[film::B]});
+    report_.sampleSquares[pixel] += value * value;
   }
 
   BatchSums toBatchSums(const interop::PixelSums& device) const {

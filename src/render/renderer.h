@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 /// The only place that knows the whole chain: scene -> device -> passes -> film.
 namespace tyndall::render {
@@ -33,6 +34,7 @@ struct RenderOptions {
   double secondsBefore = 0.0;       ///< spent on making the estimator that is handed over; counts as rendering
   std::filesystem::path checkpoint; ///< empty: none are written; the last one when interrupted or resuming
   double checkpointSeconds = 20.0;
+  bool moments = false;  ///< RenderReport::sampleSquares is wanted; each sample is a dispatch of its own
   bool resume = false;   ///< go on from `checkpoint` if it is there
   std::string sceneHash; ///< what a checkpoint must agree with
   std::function<void(const Progress&)> progress;
@@ -50,6 +52,9 @@ struct RenderReport {
   std::size_t backgroundPixels = 0;  ///< finished by the first passes
   double firstDispatchSeconds = 0.0; ///< compilation and the first chunk
   double seconds = 0.0;
+  /// Of each pixel of the film, the sum over its samples of their squared luminance, the film's background included.
+  /// Empty unless asked for. Those of a checkpoint that was gone on from are not in it.
+  std::vector<double> sampleSquares;
   std::string stoppedBy; ///< "samples", "time", "error" or "interrupt"
 };
 

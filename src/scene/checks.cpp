@@ -70,6 +70,11 @@ private:
                     "needs an integrator that learns in a fixed order, which screen-chains does "
                     "not; take mcpg, or leave --deterministic away");
     }
+    if (!report_.wrong("guide", {"distance_share"}) && scene_.render.deterministic && guidesDistances(guide)) {
+      report_.error("guide.distance_share",
+                    "must be 0 with --deterministic: distance chains are not written in a fixed order; set it to 0, or "
+                    "leave --deterministic away");
+    }
   }
 
   void checkMedium(const Medium& medium, const std::string& path) {

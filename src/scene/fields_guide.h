@@ -52,11 +52,20 @@ void fields(V& v, GuideSettings& guide) {
   v.number("radiance_limit", guide.radianceLimit, Range{1.0, 1e9},
            "a sample of the radiance cache counts for at most this many times the mean");
   v.number("most_time", guide.mostTime, Range{0.0, 1e9, "s"}, "that a target is moved ahead for");
+  v.flag("previous_lookup", guide.previousLookup,
+         "in a frame's first round cells are looked up where their surface was in the frame before, by its camera");
   v.whole("round_samples", guide.roundSamples, WholeRange{0, 1u << 16},
           "samples of a pixel in a round of the picture, after which the next ones learn; 0 for a batch's");
   v.whole("records", guide.records, WholeRange{1, 64}, "vertices of a path that learn");
   v.whole("window", guide.window, WholeRange{1, 64}, "cells that a place may be kept in");
   v.whole("slots", guide.slots, WholeRange{0, 1u << 27}, "cells of the store; 0 for by the picture and the memory");
+  v.number("distance_share", guide.distanceShare, Range{0.0, 0.99},
+           "of distances on camera rays that chains draw; where it is learnt, at most; 0 for none");
+  v.number("distance_width", guide.distanceWidth, Range{1.0, 1e5, "pixels"}, "between the vertices of their chains");
+  v.whole("distance_states", guide.distanceStates, WholeRange{1, 1024}, "of a vertex");
+  v.whole("distance_loads", guide.distanceLoads, WholeRange{1, 8}, "states that a camera ray loads");
+  v.number("distance_sigma", guide.distanceSigma, Range{0.0, 1e9, "guide units", true},
+           "standard deviation of a chain that knows nothing");
 }
 
 } // namespace tyndall::scene

@@ -47,6 +47,7 @@ void setPaper(GuideSettings& settings) {
   settings.forgetBelow = 0.05;
   settings.forgetRate = 1.0;
   settings.window = 1;
+  settings.distanceSigma = 1.0;
 }
 
 } // namespace
@@ -62,6 +63,11 @@ GuideSettings guideSettings(Integrator integrator) {
     setMcpg(settings);
   }
   return settings;
+}
+
+bool guidesDistances(const GuideSettings& settings) {
+  return settings.distanceShare > 0.0 && settings.preset != Integrator::Path &&
+         settings.preset != Integrator::ScreenChains;
 }
 
 const char* integratorName(Integrator integrator) {

@@ -65,14 +65,23 @@ struct GuideSettings {
   std::uint32_t shareSamples = 8;
   double leastRate = 0.01; ///< of a chain's means
   double forgetBelow = 0.05;
-  double forgetRate = 0.125;
+  double forgetRate = 0.5;
   double radianceLimit = 8.0;
   double mostTime = 0.25;         ///< seconds that a target is moved ahead for at most
+  bool previousLookup = true;     ///< in a frame's first round cells are looked up where surfaces were before it
   std::uint32_t roundSamples = 4; ///< of a pixel that know nothing of each other; 0: as many as a batch has
   std::uint32_t records = 8;      ///< vertices of a path that learn
   std::uint32_t window = 4;       ///< cells that a vertex may be in
   std::uint32_t slots = 0;        ///< adaptive cells; 0: by the picture and the memory
+  double distanceShare = 0.0;     ///< of camera rays' distances that chains draw; where it is learnt, at most; 0: none
+  double distanceWidth = 25.0;    ///< between the vertices of their chains [pixels]
+  std::uint32_t distanceStates = 10; ///< of a vertex
+  std::uint32_t distanceLoads = 3;
+  double distanceSigma = 30.0; ///< of a chain that knows nothing [units]
 };
+
+/// Whether distance chains are kept.
+bool guidesDistances(const GuideSettings& settings);
 
 /// The settings that an integrator begins with.
 GuideSettings guideSettings(Integrator integrator);

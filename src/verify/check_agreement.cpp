@@ -55,7 +55,7 @@ MomentOptions guidedBy(const gpu::Device& device, Integrator integrator, const g
                        MomentOptions options) {
   scene::GuideSettings settings = scene::guideSettings(integrator);
   settings.watch = false;
-  const guide::StoreSize storeSize = guide::storeSize(settings, std::size_t(size.x) * size.y, kStoreBytes);
+  const guide::StoreSize storeSize = guide::storeSize(settings, size, kStoreBytes);
   options.estimator.guide =
       render::GuidePlan{.settings = settings, .store = std::make_shared<guide::Store>(device, storeSize)};
   return options;

@@ -167,6 +167,8 @@ const BadInput kOptions[] = {
     {"render {in}/sound.json --light-sampling maybe", "--light-sampling maybe", "off"},
     {"render {in}/sound.json --integrator mcpg --error 5%", "--error", "--integrator path"},
     {"render {in}/sound.json --integrator screen-chains --deterministic", "render.deterministic", "take mcpg"},
+    {"render {in}/sound.json --integrator mcpg --deterministic --set guide.distance_share=0.5", "guide.distance_share",
+     "leave --deterministic away"},
     {"render {in}/sound.json --preview --estimator tracking", "--preview", "leave"},
     {"render {in}/sound.json --preview --tracker delta", "--preview", "--tracker away"},
     {"render {in}/sound.json --estimator march --tracker delta", "--tracker", "--estimator tracking"},

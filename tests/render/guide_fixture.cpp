@@ -71,8 +71,7 @@ private:
 StorePtr makeStore(const guide::StoreSize& size) { return std::make_shared<guide::Store>(probeDevice(), size); }
 
 StorePtr makeStore(const scene::GuideSettings& settings, const PathScene& test) {
-  const glm::uvec2& size = test.scene.film.size;
-  return makeStore(guide::storeSize(settings, std::size_t(size.x) * size.y, kStoreBytes));
+  return makeStore(guide::storeSize(settings, test.scene.film.size, kStoreBytes));
 }
 
 MomentOptions guidedBy(const StorePtr& store, const scene::GuideSettings& settings, MomentOptions options) {
@@ -155,6 +154,18 @@ void fillWithGarbage(guide::Store& store, unsigned seed) {
     chain.round = garbage.bits();
     chain.normal *= garbage.uniform(0.0, 1.0) < 0.1 ? garbage.positive() : 1.0f;
   }
+  std::vector<interop::DistanceState> distances = read<interop::DistanceState>(content.distances);
+  for (interop::DistanceState& state : distances) {
+    const float within = float(garbage.uniform(0.0, 8.0)); // others serve no ray
+    state = {garbage.weight(), garbage.uniform(0.0, 1.0) < 0.1 ? garbage.positive() : within, garbage.positive(),
+             garbage.positive()};
+  }
+  std::vector<interop::DistanceShare> shares = read<interop::DistanceShare>(content.distanceShares);
+  for (interop::DistanceShare& share : shares) {
+    share = {garbage.positive(), garbage.positive(), garbage.bits() >> garbage.bits() % 32};
+  }
+  content.distances = written(distances);
+  content.distanceShares = written(shares);
   content.screen = written(screen);
   content.cells = written(cells);
   content.states = written(states);

@@ -65,6 +65,19 @@ TEST(GuideMotion, ChainsLearnHowFastTheirLightMoves) {
   }
 }
 
+/// What has come from more than a tenth of the scene away has jumped: its speed foretells nothing. Seen to fail without
+/// that bound.
+TEST(GuideMotion, LightThatHasJumpedHasNoVelocity) {
+  const PathScene now = lampAt(0.5);
+  const StorePtr store = makeStore(scene::guideSettings(scene::Integrator::McpgPaper), now);
+  learnFrame(now, lampAt(-0.5), store, kFrameTime);
+  const std::vector<interop::ChainState> states = statesOf(*store);
+  ASSERT_GT(states.size(), 20u);
+  for (const interop::ChainState& state : states) {
+    EXPECT_EQ(state.velocityXY, 0u);
+  }
+}
+
 /// Mean share of the next frame's first directions that find the lamp: pixels with light over all of them.
 double foundInNextFrame(double lampNow, double timeNow, const StorePtr& store) {
   const PathScene now = lampAt(lampNow);

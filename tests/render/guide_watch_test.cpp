@@ -70,21 +70,44 @@ TEST(GuideWatch, ABlackPictureAndAMissingTrialDecideNothing) {
   EXPECT_EQ(*watch.gain(), 1.0);
 }
 
-// Learns, tries guiding, tries going without, and then does what has won.
+// A thirty-second of the samples learn, half as many try guiding, as many going without, and then what has won is done.
 TEST(GuideTrial, FollowsItsPlan) {
-  render::GuideTrial trial(true);
-  EXPECT_FALSE(trial.watched({16, 16})) << "one that goes on from a later batch has learnt nothing";
+  render::GuideTrial trial(true, 600);
+  EXPECT_FALSE(trial.watched({16, 8})) << "one that goes on from later samples has learnt nothing";
   trial.begin({0, 1});
-  EXPECT_TRUE(trial.guided({0, 16}) && !trial.watched({0, 16}));
-  EXPECT_TRUE(trial.guided({16, 16}) && trial.watched({16, 16}));
-  EXPECT_TRUE(!trial.guided({32, 16}) && trial.watched({32, 16}));
-  EXPECT_FALSE(trial.watched({16, 4})) << "a part of a batch says too little";
-  trial.take({16, 16}, half(2.0, 0.3, 1), half(2.0, 0.3, 2), 1.0);
-  EXPECT_TRUE(trial.guided({48, 16})) << "nothing is known yet";
-  trial.take({32, 16}, half(2.0, 0.1, 3), half(2.0, 0.1, 4), 1.0);
-  EXPECT_FALSE(trial.guided({48, 16}));
-  EXPECT_TRUE(render::GuideTrial(false).guided({48, 16}));
-  EXPECT_FALSE(render::GuideTrial(false).watched({16, 16}));
+  EXPECT_TRUE(trial.guided({8, 8}) && !trial.watched({8, 8}));
+  EXPECT_TRUE(trial.guided({16, 8}) && trial.watched({16, 8}));
+  EXPECT_TRUE(!trial.guided({24, 8}) && trial.watched({24, 8}));
+  EXPECT_FALSE(trial.watched({16, 4})) << "a part of a trial says too little";
+  trial.take({16, 8}, half(2.0, 0.3, 1), half(2.0, 0.3, 2), 1.0);
+  EXPECT_TRUE(trial.guided({32, 16})) << "nothing is known yet";
+  trial.take({24, 8}, half(2.0, 0.1, 3), half(2.0, 0.1, 4), 1.0);
+  EXPECT_FALSE(trial.guided({32, 16}));
+  trial.begin({0, 1});
+  EXPECT_TRUE(trial.guided({32, 16})) << "another picture has trials of its own";
+}
+
+/// How samples 0 to 15 are cut.
+std::vector<std::uint32_t> pieces(std::uint32_t planned) {
+  render::GuideTrial trial(true, planned);
+  trial.begin({0, 16});
+  std::vector<std::uint32_t> counts;
+  for (render::SampleRange left{0, 16}; left.count > 0;) {
+    counts.push_back(trial.leading(left).count);
+    left = {left.first + counts.back(), left.count - counts.back()};
+  }
+  return counts;
+}
+
+TEST(GuideTrial, CostsAPartOfThePicture) {
+  using Counts = std::vector<std::uint32_t>;
+  EXPECT_EQ(pieces(64), (Counts{4, 2, 2, 8}));
+  EXPECT_EQ(pieces(128), (Counts{4, 2, 2, 8}));
+  EXPECT_EQ(pieces(320), (Counts{8, 4, 4}));
+  EXPECT_EQ(pieces(1u << 30), (Counts{16})) << "the longest trials are batches";
+  EXPECT_EQ(pieces(63), (Counts{16})) << "too short for two halves each";
+  EXPECT_EQ(render::GuideTrial(false, 64).leading({0, 16}).count, 16);
+  EXPECT_TRUE(render::GuideTrial(false, 64).guided({6, 2})) << "who does not watch stays guided";
 }
 
 } // namespace

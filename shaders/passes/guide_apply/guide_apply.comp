@@ -38,4 +38,7 @@ void main() {
   if (storeEvicted > 0u) {
     atomicAdd(io.guide.at[0].counters.at[0].evicted, storeEvicted);
   }
+  if (fitForgotten > 0u) {
+    atomicAdd(io.guide.at[0].counters.at[0].forgotten, fitForgotten);
+  }
 }

@@ -68,7 +68,7 @@ Aimed aimAtEmitter(ScenePtr scene, inout Rng rng) {
   const LightReceiver receiver = receiverOf(aimed.vertex);
   const vec3 depth = flightDepth(scene, path.ray, t);
   const float flight = scene.at[0].emitterShare * emitterChoicePdf(scene.at[0].emitters, choice.emitter, receiver) *
-                       total * exp(-meanOf(depth));
+                       eventDensity(total * exp(-meanOf(depth)), t);
   const float density = flight + choice.pdf * equiangularPdf(e, t);
   const float own = scene.at[0].media.at[medium].sigmaT;
   const vec3 scattering = own * (kChromatic ? scene.at[0].media.at[medium].colour : vec3(1.0)) *

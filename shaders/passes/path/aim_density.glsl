@@ -7,6 +7,7 @@
 #define TYNDALL_PATH_AIM_DENSITY_GLSL
 
 #include "core/equiangular.glsl"
+#include "guide/distance_chains.glsl"
 #include "light/emitter.glsl"
 #include "light/tree.glsl"
 #include "passes/path/flight.glsl"
@@ -44,6 +45,14 @@ float flightDensity(ScenePtr scene, float t) {
   return meanOf(homogeneousExtinction(scene, t)) * exp(-meanOf(flightDepth(scene, path.ray, t)));
 }
 
+// Likewise of the path's event, whose distance chains may have drawn; `flight`: density of a collision at t.
+float eventDensity(float flight, float t) {
+  if (!kDistances || !(path.distanceShare > 0.0)) {
+    return flight;
+  }
+  return mix(flight, distanceDensity(io.guide, path.slot, t), path.distanceShare);
+}
+
 // Density of aiming: of the emitter as the place `path.aim` chooses it, and of t.
 float aimDensity(ScenePtr scene, uint emitter, float choicePdf, float t) {
   const vec2 stretch = homogeneousStretch(scene);
@@ -62,7 +71,7 @@ float flightShare(ScenePtr scene, ScatterPoint vertex, uint emitter, float choic
   if (path.aim < 0.0 || kPlantedBug == kBugAimShare) {
     return 1.0;
   }
-  const float flight = choicePdf * flightDensity(scene, vertex.flightT);
+  const float flight = choicePdf * eventDensity(flightDensity(scene, vertex.flightT), vertex.flightT);
   const float aimChoice = emitterChoicePdf(scene.at[0].emitters, emitter, aimReceiver());
   const float aimed = aimDensity(scene, emitter, aimChoice, vertex.flightT);
   return aimed > 0.0 ? flight / (flight + aimed) : 1.0; // both may be 0 where a channel is opaque

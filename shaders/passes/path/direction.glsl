@@ -11,12 +11,21 @@ vec3 facingOf(ScatterPoint vertex) {
   return !onSurface(vertex) ? -vertex.incoming : kGuideScreen ? vertex.frame[2] : vertex.place.normal;
 }
 
+// Where the vertex' cells are. In a frame's first round nothing has been learnt at the places that surfaces have come to:
+// what the frame before has left lies where they were, and as wide as its camera saw them.
+GridPlace gridPlace(GuidePtr guide, ScatterPoint vertex, vec3 point) {
+  if (kGuidePrevious && io.firstSample == 0u) {
+    return GridPlace(vertex.before + guide.at[0].shift, guide.at[0].cameraBefore, facingOf(vertex));
+  }
+  return GridPlace(point, guide.at[0].camera, facingOf(vertex));
+}
+
 // Loads what guides directions at a vertex that does not scatter by a delta.
 void prepareDirection(GuidePtr guide, ScatterPoint vertex, inout Rng rng) {
   const vec3 point = vertex.place.position + guide.at[0].shift;
   const vec3 horizon = vertex.transmits ? vec3(0.0) : vertex.place.normal;
   if (!kGuideScreen) {
-    loadMixture(guide, point, horizon, facingOf(vertex), rng);
+    loadMixture(guide, gridPlace(guide, vertex, point), point, horizon, rng);
     if (kGuideFit) {
       // Lobes that have misled a path so far are trusted less: weights grow with events, not by a factor at each.
       mixture.scatterShare = 1.0 - (1.0 - mixture.scatterShare) * min(path.unguided, 1.0);
@@ -40,6 +49,7 @@ vec4 directionEvalPdf(ScatterPoint vertex, vec3 w) {
 
 struct DirectionSample {
   ScatterSample drawn;
+  float scatterPdf;  // [1/sr]
   float scatterPart; // of the density: scattering's own
   float unguided;    // the weight that scattering's own density gives, over that of the mixture's
   bool guided;
@@ -56,12 +66,14 @@ DirectionSample directionSample(ScatterPoint vertex, inout Rng rng) {
   } else {
     result.drawn = scatterSample(vertex, rng);
   }
+  result.scatterPdf = result.guided ? 0.0 : result.drawn.pdf;
   if (!kGuide || mixture.scatterShare >= 1.0 || result.drawn.pdf == 0.0 && !result.guided) {
     return result;
   }
   const vec4 scattered = scatterEvalPdf(vertex, result.drawn.direction);
   const float pdf = mixturePdf(scattered.w, result.drawn.direction);
   result.drawn.pdf = pdf;
+  result.scatterPdf = scattered.w;
   result.drawn.weight = pdf > 0.0 ? scattered.xyz / pdf : vec3(0.0);
   result.unguided = scattered.w > 0.0 ? pdf / scattered.w : 1.0;
   result.scatterPart = pdf > 0.0 ? mixture.scatterShare * scattered.w / pdf : 0.0;

@@ -10,6 +10,7 @@
 TYNDALL_PATH_SPEC(SPEC)
 #undef SPEC
 const bool kWeighted = false; // the walk stops at collisions
+const bool kDistances = kGuide && kGuideDistances;
 
 layout(push_constant, scalar) uniform Push { PathInputs io; };
 
@@ -41,6 +42,9 @@ void finishSample(inout Rng rng) {
     }
     if (kGuide && kGuideLearn) {
       learnFromPath(io.guide, rng);
+    }
+    if (kDistances && kGuideLearn && path.distanceLearns != 0u) {
+      learnDistance(io.guide, path.slot, pixelInFlight(), scoreOf(total), rng);
     }
     path.sums.moments[3] += path.transmittance;
     path.sums.extras[3] += path.depth;
@@ -121,6 +125,9 @@ void beginPath(uint slot) {
   path.travelled = 0.0;
   path.recordCount = 0u;
   path.recordStage = kRecordClosed;
+  path.distanceShare = -1.0;
+  path.guidedT = -1.0;
+  path.distanceLearns = 0u;
   path.pending = vec3(0.0);
   path.glow = vec3(0.0);
   path.walk = walkBegin(vec3(0.0), vec3(0.0), 0.0, kWalkTransmit, 0u);
@@ -138,6 +145,10 @@ void countGuiding() {
   atomicAdd(counters.at[0].vertices, mixtureVertices);
   atomicAdd(counters.at[0].states, mixtureStates);
   atomicAdd(counters.at[0].guided, mixtureGuided);
+  if (kDistances) {
+    atomicAdd(counters.at[0].distanceRays, distanceRays);
+    atomicAdd(counters.at[0].distanceGuided, distanceGuided);
+  }
   if (kGuideLearn) {
     atomicAdd(counters.at[0].accepted, learnAccepted);
     atomicAdd(counters.at[0].forgotten, learnForgotten);

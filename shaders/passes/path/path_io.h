@@ -56,7 +56,9 @@
   SPEC(bool, kGuideOrdered,    44, false)       /* each pixel has its own places in the log */ \
   SPEC(bool, kGuideFit,        45, false)       /* the states of a cell are fitted together */ \
   SPEC(bool, kGuideScreen,     39, false)       /* chains in screen space instead of cells */ \
+  SPEC(bool, kGuidePrevious,   48, false)       /* cells are looked up where surfaces were */ \
   SPEC(bool, kGuideView,       46, false)       /* looks at the store, renders nothing */     \
+  SPEC(bool, kGuideDistances,  47, false)       /* chains guide distances on camera rays */   \
   SPEC(uint, kPlantedBug,      26, 0u)          /* tests: kBug*; 0 = none */
 // clang-format on
 
@@ -141,6 +143,9 @@ struct PathState {
   uint recordCount;      // vertices that have been recorded (records.glsl)
   uint recordStage;      // kRecord*: what the newest one waits for
   float aim;             // where on the path's ray an emitter is chosen to aim at; < 0: nowhere
+  float distanceShare;   // probability that chains drew the camera ray's distance; < 0: the ray asks none (distance.glsl)
+  float guidedT;         // ... which they have drawn; < 0: they have not
+  uint distanceLearns;   // 1: the ray has a record
   float collisionT;      // of the nearest collision in a homogeneous medium
   uint collisionMedium;
   vec3 radiance;         // of this sample

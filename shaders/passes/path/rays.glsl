@@ -4,6 +4,7 @@
 #define TYNDALL_PATH_RAYS_GLSL
 
 #include "passes/path/aim.glsl"
+#include "passes/path/distance.glsl"
 #include "passes/path/records.glsl"
 #include "passes/path/strata.glsl"
 #include "passes/path/surface.glsl"
@@ -59,8 +60,8 @@ void castPath(PathRay ray, float travelled) {
 void stageSample(ScenePtr scene, uvec2 pixel, uint seed, uint sampleIndex, inout Rng rng) {
   rng = rngSeed(pixel, sampleIndex, seed);
   path.events = 0u;
-  if (path.sampleIndex == 0u || sampleIndex % kSobolPoints == 0u) {
-    path.strataSeed = sobolBegin(pixel, sampleIndex, seed).seed;
+  if (path.sampleIndex == 0u || sampleIndex % kSobolPoints == 0u || learnsAtOnce()) {
+    path.strataSeed = strataSeed(pixel, sampleIndex, seed);
   }
   const uvec3 place = strata(0u);
   path.flightWord = place.z;
@@ -90,6 +91,7 @@ void stageSample(ScenePtr scene, uvec2 pixel, uint seed, uint sampleIndex, inout
   path.nextCast = 0u;
   path.recordCount = 0u;
   path.recordStage = kRecordClosed;
+  path.distanceLearns = 0u;
   path.hero = kChromatic ? min(uint(unitFloat(second.z) * 3.0), 2u) : 0u;
   path.radiance = vec3(0.0);
   path.background = vec3(0.0);
@@ -104,6 +106,12 @@ void stageSample(ScenePtr scene, uvec2 pixel, uint seed, uint sampleIndex, inout
 void beginFlight(ScenePtr scene, inout Rng rng) {
   path.collisionT = path.hit.t;
   path.collisionMedium = kNoMedium;
+  path.stage = kStageArrive;
+  if (kDistances && path.guidedT >= 0.0) {
+    path.collisionT = path.guidedT;
+    walkRay(scene, path.guidedT, kWalkTransmit);
+    return;
+  }
   if (kHomogeneous) {
     rngQueue(rng, uvec3(path.flightWord), path.flightFresh);
     path.flightFresh = 0u; // a ray that goes on behind a boundary has told that it is not stopped before
@@ -111,7 +119,6 @@ void beginFlight(ScenePtr scene, inout Rng rng) {
     rng.queued = 0u;
   }
   walkRay(scene, path.collisionT, kWalkCollide);
-  path.stage = kStageArrive;
 }
 
 // What the path's own ray does once it has been cast.
@@ -198,6 +205,9 @@ void stageCast(ScenePtr scene, bool blocked, inout Rng rng) {
       walkRay(scene, path.hit.t, kWalkTransmit);
     }
     return;
+  }
+  if (kDistances && !isShadow()) {
+    beginDistance(scene, io.guide, rng);
   }
   if (!kAimed || isShadow() || !aimRay(scene, rng)) {
     followRay(scene, rng);

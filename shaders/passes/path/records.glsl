@@ -68,13 +68,16 @@ void recordVertex(GuidePtr guide, ScatterPoint vertex, DirectionSample direction
   records.at[place].throughput = throughput;
   records.at[place].left = path.radiance;
   records.at[place].scatterPart = direction.scatterPart;
+  records.at[place].scatterPdf = direction.scatterPdf;
   if (kGuideCache) {
     records.at[place].arrived = path.radiance;
   }
   if (kScoreAtHit) {
     records.at[place].score = vec3(0.0);
   }
-  if (!kGuideFit) {
+  if (kGuideFit) {
+    records.at[place].source = direction.guided ? 0u : kNoState; // some state's lobe, or none's
+  } else {
     recordChain(guide, place, direction);
   }
 }
@@ -92,7 +95,9 @@ void recordMeets(GuidePtr guide, vec3 point, vec3 before) {
   if (recording(kRecordMeets)) {
     guide.at[0].records.at[recordPlace(guide)].target = point + guide.at[0].shift;
     if (kGuideMotion) {
-      guide.at[0].records.at[recordPlace(guide)].velocity = (point - before) / guide.at[0].frameTime;
+      const vec3 step = point - before;
+      const bool jumped = dot(step, step) > guide.at[0].mostStep * guide.at[0].mostStep;
+      guide.at[0].records.at[recordPlace(guide)].velocity = jumped ? vec3(0.0) : step / guide.at[0].frameTime;
     }
     path.recordStage = kRecordArrives;
   }

@@ -53,10 +53,13 @@ void stageShadow(ScenePtr scene, SurfacePass through, inout Rng rng) {
   goOn(scene, rng);
 }
 
+// What a sample counts for where the camera ray ends: its distance may be guided.
+float cameraWeight() { return kDistances ? path.throughput.x : 1.0; }
+
 // Radiance from infinity along the path's ray.
 void escape(ScenePtr scene) {
   if (path.events == 0u) {
-    path.transmittance = 1.0;
+    path.transmittance = cameraWeight();
     path.background = kBackground ? path.throughput * distantBackground(scene, path.ray.direction) : vec3(0.0);
   } else if (kDistantAreas) {
     const vec4 mixture = distantMixture(scene, path.ray.direction);
@@ -137,9 +140,9 @@ void scatter(ScenePtr scene, ScatterPoint vertex, inout Rng rng) {
 
 void recordFirst(float t, vec3 albedo) {
   if (kAovs && path.events == 0u) {
-    path.opacity = 1.0;
-    path.depth = path.vertex.travelled + t;
-    path.albedo = albedo;
+    path.opacity = cameraWeight();
+    path.depth = path.opacity * (path.vertex.travelled + t);
+    path.albedo = path.opacity * albedo;
   }
 }
 
@@ -228,6 +231,11 @@ void stageEnd(ScenePtr scene, inout Rng rng) {
     t = flightEnd(medium);
     if (kChromatic) {
       countChannels(scene, t, medium);
+    }
+    if (kDistances && path.events == 0u && !endDistance(scene, io.guide, t, medium, rng)) {
+      noWalk();
+      path.stage = kStageDone;
+      return;
     }
   }
   const bool onSurface = kSurfaces && path.hit.primitive != kNoHit && medium == kNoMedium;

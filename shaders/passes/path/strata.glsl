@@ -13,6 +13,19 @@
 // Events whose numbers are stratified: what those beyond gain is less than what the numbers cost.
 const uint kStratifiedEvents = 1u;
 
+// Whether chains learn while paths are under way: a sample may read what the one before has written.
+bool learnsAtOnce() { return kGuide && kGuideLearn && (kGuideScreen || kDistances); }
+
+// Of the nets that the samples from `sampleIndex` on share. Who has met a point of a net knows something of its others, so
+// that samples which read what earlier ones have taught have nets of their own: those of a round, or each.
+uint strataSeed(uvec2 pixel, uint sampleIndex, uint seed) {
+  const uint kApart = 0x40000000u; // from the nets of batches
+  if (!kGuide || !kGuideLearn) {
+    return sobolBegin(pixel, sampleIndex, seed).seed;
+  }
+  return sobolBegin(pixel, kSobolPoints * (learnsAtOnce() ? sampleIndex : io.firstSample), seed ^ kApart).seed;
+}
+
 bool stratified() { return path.events <= kStratifiedEvents; }
 
 // Set `which` of the newest event, or of the camera.
