@@ -13,12 +13,12 @@ uint fitForgotten = 0u;
 
 // A sample that a cell takes in.
 struct FitSample {
-  vec3 point;    // where its direction was drawn
-  vec3 target;   // what it met
-  vec3 velocity; // of the target [units/s]
-  float score;   // 0: it has found nothing
+  vec3 point;       // where its direction was drawn
+  vec3 target;      // what it met
+  vec3 velocity;    // of the target [units/s]
+  float score;      // 0: it has found nothing
   float scatterPdf; // of scattering's own directions [1/sr]
-  bool guided;   // a lobe drew it
+  bool guided;      // a lobe drew it
 };
 
 // Takes `part` of a sample in. `rate`: of the cell's means. The target is where it is now.
